@@ -160,7 +160,8 @@ objectLikeBackground (const SceneResult& scene)
     largest = &object;
   }
   const double others_m = scene.background.empty () ? all_m - extent_m : extentOf (scene.background);
-  if (others_m == 0.0 || extent_m <= others_m)
+  const bool are_two = scene.objects.size () == 2 && scene.background.empty (); // one is always the larger
+  if (others_m == 0.0 || extent_m <= (are_two ? 2.0 : 1.0) * others_m)
     return (std::nullopt);
   return ("object " + std::to_string (largest->id) + " extends farther than " +
           (scene.background.empty () ? "all others together" : "the background") +

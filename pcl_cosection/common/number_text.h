@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <string>
+#include <vector>
 
 namespace pcl::cosection {
 
@@ -47,6 +48,13 @@ numbersText (const Vector& values, const char* separator = " ")
   std::string text;
   appendNumbers (text, values, separator);
   return text;
+}
+
+/** \brief "a" for one, "a and 3 more" for four. */
+inline std::string
+firstAndMore (const std::vector<std::string>& things)
+{
+  return things.size () == 1 ? things[0] : things[0] + " and " + std::to_string (things.size () - 1) + " more";
 }
 
 } // namespace pcl::cosection

@@ -23,8 +23,8 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
                                                            [&] { return observeObjects (scene, mode, state, log); });
 
   // Support planes: given ones, and ones fitted to the background.
-  const std::vector<SupportPlanes> support = log.timed (
-      "constraints", [&] { return findObjectPlanes (scene, observations, state, log); });
+  const std::vector<SupportPlanes> support = log.timed ("constraints",
+                                                        [&] { return findObjectPlanes (scene, observations, log); });
 
   // A grid for each object, for its obstacles, and for the background.
   const std::vector<SceneObject> objects = log.timed (

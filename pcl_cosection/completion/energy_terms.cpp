@@ -304,16 +304,14 @@ objectEnergies (const Scene& scene, CompletionMode mode, const std::vector<Scene
         body.evidence.reset ();
       if (!energy.hasData ())
         throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
-      ObjectSetting setting = settingOf (scene, *object.input, body);
+      ObjectSetting setting = settingOf (scene, *object.input);
       setting.is_of_other = placesOfOthers (objects, o, alive);
       const Eigen::Isometry3f T_object_world = firstPose (*object.input).inverse ().cast<float> ();
       for (const OrientedPoint& foot : object.support->feet)
         setting.under_others.push_back ({T_object_world * foot.position, T_object_world.linear () * foot.normal});
       const std::vector<float> measured = energy.problem.weight;
-      addPriors (*object.observation, setting, object.planes (), body.hidden, energy);
+      addPriors (*object.observation, setting, object.planes (), energy);
       markTargets (measured, energy);
-      if (mode == CompletionMode::Once || object.observation->virtual_view)
-        body.hidden.clear ();
       energies[o] = std::move (energy);
     });
   });

@@ -51,21 +51,6 @@ markInferred (const SceneObject& object, TriangleMesh& mesh)
       mesh.provenance[v] = static_cast<std::uint8_t> (Provenance::Inferred);
 }
 
-ProposalFit
-fitOf (const MeshAlignment& alignment, bool is_used, std::size_t number = 0)
-{
-  ProposalFit fit;
-  fit.proposal = number;
-  fit.used = is_used;
-  fit.T_object_proposal = alignment.T_object_mesh;
-  fit.scale = alignment.scale;
-  fit.distance_m = alignment.distance_m;
-  fit.explained = alignment.explained;
-  fit.confirmed = alignment.confirmed;
-  fit.contradicted = alignment.contradicted;
-  return fit;
-}
-
 /** \brief Share of the points that a mesh does not show, if these are many, or a whole part; else 0. */
 double
 missedShare (const std::vector<OrientedPoint>& points, const TriangleMesh& mesh, double voxel_size_m, double length_m)
@@ -112,7 +97,7 @@ downText (double depth_m)
 
 /** \brief What is lost of an object, and what of it is a guess. */
 std::vector<std::string>
-remarksOn (const SceneObject& object, const ObjectResult& result)
+remarksOn (const Scene& scene, const SceneObject& object, const ObjectResult& result)
 {
   const double voxel_size_m = object.grid ().voxel_size_m;
   std::vector<std::string> remarks;
@@ -120,7 +105,8 @@ remarksOn (const SceneObject& object, const ObjectResult& result)
       missed > 0.0)
     remarks.push_back (lossText (missed, voxel_size_m));
   const std::vector<Eigen::Vector4d> planes = object.planes ();
-  if (const double hidden = hiddenOutline (*object.observation, planes, *result.signed_distance, much_hidden);
+  if (const double hidden = hiddenOutline (*object.observation, scene.background.empty (), planes,
+                                           *result.signed_distance, much_hidden);
       hidden > much_hidden)
     remarks.push_back (hiddenText (hidden));
   const bool knows_planes = !object.support->inferred;
@@ -162,7 +148,7 @@ finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, cons
     if (result.mesh.empty ())
       throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
     markInferred (object, result.mesh);
-    remarks[o] = remarksOn (object, result);
+    remarks[o] = remarksOn (scene, object, result);
     transferAttributes (object.points (), energies[o].grid, result.mesh);
     attachExpectedErrors (errorSourcesOf (object, energies[o], result.mesh), result.mesh);
     if (scene.options.compute_bounds)
@@ -225,12 +211,9 @@ sceneResult (const Scene& scene, const std::vector<Observation>& observations,
     if (const ProposedShapes* shapes = observations[o].proposed.get ())
     {
       if (shapes->best)
-      {
-        object.proposal = fitOf (shapes->best->alignment, shapes->best->is_used, shapes->best->number);
-        object.proposal->withdrawn = shapes->best->is_withdrawn;
-      }
+        object.proposal = shapes->best->fit;
       if (shapes->learned)
-        object.learned = fitOf ({shapes->learned->fit}, shapes->learned->is_used);
+        object.learned = shapes->learned->fit;
     }
     object.solver = solvers[n];
   }

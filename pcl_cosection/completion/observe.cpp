@@ -345,9 +345,8 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
       {
         object.virtual_view = std::make_shared<const DepthView> (std::move (*view));
         object.views.emplace_back (object.virtual_view.get (), object.virtual_view->T_world_sensor);
-        body.hidden.clear (); // the virtual view differs each time
       }
-    body.hidden.add (object.views, object.points (), options.threads);
+    object.hidden = OcclusionMap (object.views, object.points (), options.threads);
     return object;
   });
 }

@@ -65,8 +65,8 @@ isBelow (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p, d
 /** \brief Box of the region where an object may be, with a margin: where ExtentPrior gives no bound, above all
  * \a planes, united with \a known. */
 Eigen::AlignedBox3d
-possibleBox (const Observation& object, const Eigen::AlignedBox3d& known, const OcclusionMap& hidden,
-             const std::vector<Eigen::Vector4d>& planes, int threads)
+possibleBox (const Observation& object, const Eigen::AlignedBox3d& known, const std::vector<Eigen::Vector4d>& planes,
+             int threads)
 {
   const ExtentPrior prior;
   const Eigen::AlignedBox3d& observed = object.box;
@@ -87,9 +87,7 @@ possibleBox (const Observation& object, const Eigen::AlignedBox3d& known, const 
     data[cells.index (at.x (), at.y (), at.z ())] = 1;
   }
   const std::vector<float> distance = distanceTransform (cells.dims, data, threads);
-  const auto allowed = [&] (Hidden by) {
-    return static_cast<float> (allowedFactor (prior, by) * (object.extents_m / cells.voxel_size_m)[1]);
-  };
+  const auto allowed = [&] (Hidden by) { return prior.allowed (object.extents_m / cells.voxel_size_m, by); };
   const float most = std::max ({allowed (Hidden::ByObject), allowed (Hidden::ByOther), allowed (Hidden::Nothing)});
   const double margin = 0.5 * cells.voxel_size_m + possible_margin_vox * object.voxel_size_m;
   const auto free = freeSpaceQuery (object.views, cells.voxel_size_m);
@@ -102,7 +100,7 @@ possibleBox (const Observation& object, const Eigen::AlignedBox3d& known, const 
         const float away = distance[cells.index (i, j, k)];
         if (away > most || box.contains (p) || isBelow (planes, p, 0.5 * cells.voxel_size_m) || free (p))
           continue;
-        if (away <= allowed (hidden.at (p)))
+        if (away <= allowed (object.hidden.at (p)))
           box.extend (p);
       }
   // Whole voxels from the observed box, so that the lattice depends on that box alone.
@@ -122,8 +120,7 @@ isSimilar (double earlier, double wanted)
 
 /** \brief Box of the places where an object may be. */
 Eigen::AlignedBox3d
-volumeBox (const Scene& scene, const ObjectInput& input, const Observation& object, const SupportPlanes& support,
-           const BodyState& body)
+volumeBox (const Scene& scene, const ObjectInput& input, const Observation& object, const SupportPlanes& support)
 {
   const CoSectionOptions& options = scene.options;
   if (options.padding > 0.0 || !options.activePriors ().extent || !options.use_hull || object.views.empty ())
@@ -138,8 +135,8 @@ volumeBox (const Scene& scene, const ObjectInput& input, const Observation& obje
     if (poseAt (input, v).matrix ().allFinite ())
       poses.push_back (poseAt (input, v));
   const std::vector<Eigen::Vector4d> planes = planesAtPoses (input, object.box.center (), support.all (), poses);
-  const Eigen::AlignedBox3d known = boxDownToPlanes (object, settingOf (scene, input, body), planes);
-  return possibleBox (object, known, body.hidden, planes, options.threads);
+  const Eigen::AlignedBox3d known = boxDownToPlanes (object, settingOf (scene, input), planes);
+  return possibleBox (object, known, planes, options.threads);
 }
 
 /** \brief Voxel size of a vessel (ProfiledShape::wallThickness ()): half of its wall thickness, if that is smaller
@@ -164,7 +161,7 @@ finestVoxelSize (const Scene& scene, const ObjectInput& input, const Observation
   const double earlier_m = body.grid ? body.wall_m : 0.0;
   const std::vector<Eigen::Vector4d> planes = planesAtPoses (input, object.box.center (), support.all (),
                                                              {firstPose (input)});
-  body.wall_m = wallThickness (object, settingOf (scene, input, body), planes);
+  body.wall_m = wallThickness (object, settingOf (scene, input), planes);
   body.updates_without_wall = body.wall_m > 0.0 ? 0 : body.updates_without_wall + 1;
   if (!(body.wall_m > 0.0) && body.updates_without_wall < forgotten_after)
     body.wall_m = earlier_m;
@@ -184,7 +181,7 @@ placementOf (const Scene& scene, const ObjectInput& input, const Observation& ob
              BodyState& body)
 {
   Placement placement;
-  placement.box = volumeBox (scene, input, object, support, body);
+  placement.box = volumeBox (scene, input, object, support);
   const double fine_m = finestVoxelSize (scene, input, object, support, body);
   if (scene.fixedVoxelSize ())
     placement.sizes_m = {fine_m, fine_m, fine_m};
@@ -298,9 +295,12 @@ bytesInUse (const Scene& scene, const SceneState& state, const std::vector<Obser
   for (const ObjectInput& object : scene.objects)
     points += object.points.size ();
   for (const Observation& object : observations)
+  {
     points += object.inliers.size ();
+    bytes += object.hidden.bytes ();
+  }
   for (const auto& [id, body] : state.objects)
-    bytes += (body.grid ? estimateBytes (*body.grid) : 0) + body.hidden.bytes ();
+    bytes += body.grid ? estimateBytes (*body.grid) : 0;
   std::size_t largest_view = 0;
   for (const UsedView& view : scene.views)
   {

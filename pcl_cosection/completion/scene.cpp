@@ -32,7 +32,6 @@ BodyState::readAgain ()
 {
   if (grid)
     restart (VoxelGrid (*grid), CoSectionOptions (options), evidence && evidence->carves ());
-  hidden.clear ();
   outliers.clear ();
   wall_m = 0.0;
 }
@@ -43,7 +42,6 @@ BodyState::readPointsAgain ()
   if (evidence)
     evidence->clearPoints ();
   points_read = 0;
-  hidden.clear ();
 }
 
 void

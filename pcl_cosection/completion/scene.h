@@ -3,7 +3,6 @@
 
 #include "pcl_cosection/energy/body_energy.h"
 #include "pcl_cosection/energy/data/shape_evidence.h"
-#include "pcl_cosection/priors/occlusion_map.h"
 #include <pcl/cosection/surface/co_section.h>
 
 #include <Eigen/Geometry>
@@ -91,7 +90,6 @@ struct BodyState
   CoSectionOptions options;                // of the scene, with the body's own Gaussians and tolerance
   std::unique_ptr<ShapeEvidence> evidence; // null before there is a grid, and after use in the mode Once
   BodySolution solution;
-  OcclusionMap hidden;          // occlusion of the object's volume by its views
   double wall_m = 0.0;          // wall thickness of a vessel; 0 for other shapes
   int updates_without_wall = 0; // since the last one that found a wall
   std::size_t points_read = 0;

@@ -203,10 +203,10 @@ SceneObject::planes () const
 }
 
 ObjectSetting
-settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body)
+settingOf (const Scene& scene, const ObjectInput& object)
 {
-  return {scene.hasNothingAround (),     scene.background,     firstPose (object).inverse (), body.hidden,
-          scene.options.activePriors (), scene.options.threads};
+  return {scene.hasNothingAround (), scene.background, firstPose (object).inverse (), scene.options.activePriors (),
+          scene.options.threads};
 }
 
 std::vector<Eigen::Vector4d>
@@ -243,8 +243,7 @@ boundingPlanes (const Scene& scene, const ObjectInput& object, const Observation
 }
 
 std::vector<SupportPlanes>
-findObjectPlanes (const Scene& scene, const std::vector<Observation>& observations, SceneState& state,
-                  CompletionLog& log)
+findObjectPlanes (const Scene& scene, const std::vector<Observation>& observations, CompletionLog& log)
 {
   const CoSectionOptions& options = scene.options;
   std::vector<SupportPlanes> support (scene.objects.size ());
@@ -259,7 +258,7 @@ findObjectPlanes (const Scene& scene, const std::vector<Observation>& observatio
     standOnOther (scene, observations, o, log, support);
     if (!support[o].planes.empty () || !scene.hasNothingAround () || !options.activePriors ().plane)
       continue;
-    const ObjectSetting setting = settingOf (scene, object, state.objects[object.id]);
+    const ObjectSetting setting = settingOf (scene, object);
     if (const auto plane = inferSupportPlane (observations[o], setting))
       support[o] = {{transformPlane (*plane, firstPose (object).inverse ())}, true, std::nullopt, {}};
   }

@@ -102,7 +102,7 @@ aliveObjects (const std::vector<SceneObject>& objects, const CompletionLog& log)
 }
 
 /** \brief The surroundings of an object, as priors need them. */
-ObjectSetting settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body);
+ObjectSetting settingOf (const Scene& scene, const ObjectInput& object);
 
 /** \brief The given planes that may bound an object, with normals towards it, world frame: those within reach of it, or
  * all, if it moves. */
@@ -116,7 +116,7 @@ std::vector<Eigen::Vector4d> boundingPlanes (const Scene& scene, const ObjectInp
 /** \brief boundingPlanes () of each object; inferSupportPlane () for an object without known surroundings. Warns if
  * given planes cut off many points. */
 std::vector<SupportPlanes> findObjectPlanes (const Scene& scene, const std::vector<Observation>& observations,
-                                             SceneState& state, CompletionLog& log);
+                                             CompletionLog& log);
 
 /** \brief The planes of all objects, without duplicates. */
 std::vector<Eigen::Vector4d> differentPlanes (const Scene& scene, const std::vector<Observation>& observations,

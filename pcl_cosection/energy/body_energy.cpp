@@ -2,6 +2,7 @@
 #include "body_energy.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include "pcl_cosection/energy/solver/solver_detail.h"
 #include "pcl_cosection/volume/distance_transform.h"
@@ -63,7 +64,7 @@ continuePlane (const PlaneContinuation& continuation, BodyEnergy& energy)
         if (energy.free_space[n] || energy.data_distance_vox[n] < continued_plane_gap_vox)
           continue;
         const Eigen::Vector3d p = grid.center (i, j, k);
-        const double s = (continuation.plane.head<3> ().dot (p) + continuation.plane[3]) / grid.voxel_size_m;
+        const double s = heightOver (continuation.plane, p) / grid.voxel_size_m;
         if (std::abs (s) > 3.0 * sigma_vox || !continuation.region.contains (p))
           continue;
         const double w = continued_plane_weight * std::exp (-s * s / (sigma_vox * sigma_vox));

@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/view/normals/estimated_normals.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -39,12 +40,9 @@ distancesToPoints (const TriangleMesh& points, const std::vector<Eigen::Vector3d
   if (points.vertices.size () < static_cast<std::size_t> (neighbour))
     throw DegenerateInput ("a set of points has " + std::to_string (points.vertices.size ()) + " points, at least " +
                            std::to_string (neighbour) + " are needed");
-  auto cloud = pcl::make_shared<PointCloud<PointXYZ>> ();
   requirePoints (points);
-  for (const Eigen::Vector3f& p : points.vertices)
-    cloud->emplace_back (p.x (), p.y (), p.z ());
   search::KdTree<PointXYZ> tree;
-  tree.setInputCloud (cloud);
+  tree.setInputCloud (asCloud (points.vertices));
   std::vector<double> distances (from.size ());
   parallelFor (0, static_cast<int> (from.size ()), threads, [&] (int n) {
     Indices indices;

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
-#include "mask_reader.h"
 #include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include "pcl_cosection/sequence/median_depth.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
@@ -53,9 +52,9 @@ class KnownPoses : public FrameContext
 {
 public:
   KnownPoses (const KnownSequence& sequence, const FusionOptions& options)
-      : sequence_ (sequence)
+      : FrameContext ({sourceOf (sequence.masks), sequence.images->camera ()})
+      , sequence_ (sequence)
       , options_ (options)
-      , masks_ (sourceOf (sequence.masks))
   {
     const std::vector<double> stamps = sequence.images->stamps ();
     const double period = sequence.images->period ();
@@ -113,14 +112,8 @@ public:
                                                                        : object->second.tsdf.volume ()->surfaceMesh ();
   }
 
-  bool lacksMasks () const override { return masks_.lacksMasks (); }
-
-  std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
-
   std::string whyNoObject () const override
   {
-    if (!masks_.hasMasks ())
-      return {};
     const std::string empty = masks_.emptiness ();
     return "the masks show no object: " +
            (empty.empty () ? "no keyframe has enough readings where they have one" : empty);
@@ -183,7 +176,6 @@ private:
 
   const KnownSequence& sequence_;
   const FusionOptions& options_;
-  MaskReader masks_;
   PosesByFrame T_world_camera_;
   std::map<int, KnownObject> objects_;
   std::size_t frames_ = 0;
@@ -206,7 +198,7 @@ class TrackedPoses : public FrameContext
 {
 public:
   TrackedPoses (const TrackedFrames& frames, const FusionOptions& options)
-      : masks_ (frames.masks)
+      : FrameContext ({frames.masks, frames.camera})
       , has_objects_ (frames.has_objects)
       , max_object_depth_m_ (options.front_end.max_object_depth_m)
       , fusion_ (frames.camera, frontEndOptions (options.front_end, has_objects_))
@@ -269,14 +261,8 @@ public:
     return text + "fit " + std::to_string (std::lround (100.0 * tracked_->inlier_share)) + " %";
   }
 
-  bool lacksMasks () const override { return masks_.lacksMasks (); }
-
-  std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
-
   std::string whyNoObject () const override
   {
-    if (!masks_.hasMasks ())
-      return {};
     const std::string shown = "the masks show no object that could be tracked: ";
     if (const std::string empty = masks_.emptiness (); !empty.empty ())
       return shown + empty;
@@ -343,7 +329,6 @@ private:
     return text.str ();
   }
 
-  MaskReader masks_;
   const bool has_objects_;
   const double max_object_depth_m_;
   DynamicFusion fusion_;

@@ -1,17 +1,17 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mask_reader.h"
 #include "run_log.h"
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace pcl::cosection {
 
@@ -28,6 +28,8 @@ struct FrameKnowns
 class FrameContext
 {
 public:
+  explicit FrameContext (MaskReader masks) : masks_ (std::move (masks)) {}
+
   virtual ~FrameContext () = default;
 
   /** \brief Go on to a frame. */
@@ -47,23 +49,20 @@ public:
   /** \brief A few words for the progress; may be empty. */
   virtual std::string status () const { return ""; }
 
-  /** \brief Whether masks were given and none of them could be used. */
-  virtual bool lacksMasks () const = 0;
+  /** \brief The masks of the frames so far. */
+  const MaskReader& masks () const { return masks_; }
 
-  /** \brief Lines about masks that could not be read. */
-  virtual std::vector<std::string> maskWarnings () const = 0;
-
-  /** \brief Why no object came of the masks, if none did; empty without masks. */
+  /** \brief Why no object came of the masks, if none did. */
   virtual std::string whyNoObject () const = 0;
 
   /** \brief Add surfaces, times and messages. */
   virtual void finish (FusionResult& result) = 0;
+
+protected:
+  MaskReader masks_;
 };
 
 std::unique_ptr<FrameContext> makeKnownPoses (const KnownSequence& sequence, const FusionOptions& options);
-
-/** \brief The mask of a frame; nothing if it has none. */
-using MaskSource = std::function<std::optional<Image<std::uint16_t>> (const RgbdFrame& frame)>;
 
 /** \brief Frames of which poses are not known. */
 struct TrackedFrames

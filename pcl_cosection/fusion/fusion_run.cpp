@@ -194,7 +194,7 @@ FusionRun::complete (const ProgressCallback& progress)
     result.warnings.push_back (std::to_string (points_.without_pose) +
                                " points of objects were left out: their trajectories have no pose for those frames");
   leaveOutSmallObjects (result);
-  if (result.objects.empty ())
+  if (result.objects.empty () && context_->masks ().hasMasks ())
     result.why_no_object = context_->whyNoObject ();
   if (!result.why_no_object.empty ())
     result.warnings.push_back (result.why_no_object);

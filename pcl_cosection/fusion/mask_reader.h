@@ -1,10 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "frame_context.h"
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,13 +16,18 @@
 
 namespace pcl::cosection {
 
+/** \brief The mask of a frame; nothing if it has none. */
+using MaskSource = std::function<std::optional<Image<std::uint16_t>> (const RgbdFrame& frame)>;
+
 /** \brief Reads masks, and collects what is to be said about them. */
 class MaskReader
 {
 public:
-  explicit MaskReader (MaskSource masks) : masks_ (std::move (masks)) {}
+  /** \param[in] camera of the depth images */
+  MaskReader (MaskSource masks, const PinholeCamera& camera) : masks_ (std::move (masks)), camera_ (camera) {}
 
-  /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
+  /** \brief The mask of a frame; nothing if it has none or the mask is damaged. Where an instance reaches beyond its
+   * object (relabelStrayPatches ()), its pixels are those of what they show. */
   std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame);
 
   /** \brief Whether a mask was read. */
@@ -34,6 +43,8 @@ public:
 
 private:
   MaskSource masks_; // empty: no frame has one
+  PinholeCamera camera_;
+  std::map<std::uint16_t, std::array<std::size_t, 2>> readings_; // by label: of all masks, and those elsewhere
   std::vector<std::string> warnings_;
   std::size_t more_ = 0;
   std::size_t used_ = 0;

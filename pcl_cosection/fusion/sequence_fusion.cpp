@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
+#include "camera_size.h"
 #include "fusion_run.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include "pcl_cosection/view/visibility/visibility.h"
@@ -182,12 +183,12 @@ void
 requireKeyframes (const FrameReadings& readings, std::size_t points, const std::vector<std::string>& frame_warnings,
                   const FrameContext& context, const FusionOptions& options, bool tracked, FusionResult& result)
 {
-  const std::vector<std::string> mask_warnings = context.maskWarnings ();
+  const std::vector<std::string> mask_warnings = context.masks ().warnings ();
   result.warnings.insert (result.warnings.end (), frame_warnings.begin (), frame_warnings.end ());
   result.warnings.insert (result.warnings.end (), mask_warnings.begin (), mask_warnings.end ());
   if (result.frames == 0)
     throw IoError (whyNoFrame (readings, tracked, options) + firstReason (frame_warnings));
-  if (result.keyframes == 0 || context.lacksMasks ())
+  if (result.keyframes == 0 || context.masks ().lacksMasks ())
     throw IoError ("no frame has a mask that can be used" + firstReason (mask_warnings));
   if (points == 0)
   {
@@ -290,8 +291,33 @@ struct OnlineFusion::Impl
   std::optional<Image<std::uint16_t>> mask; ///< of the next frame
   std::size_t frames = 0;
   double stamp = 0.0; ///< of the last frame
+  bool is_busy = false;
   FusionRun run;
 };
+
+namespace {
+
+/** \brief While a member function runs, callbacks of it must not call another. */
+class Busy
+{
+public:
+  explicit Busy (bool& is_busy) : is_busy_ (is_busy)
+  {
+    if (is_busy)
+      throw InvalidArgument ("add () and complete () must not be called from a callback of them");
+    is_busy = true;
+  }
+
+  ~Busy () { is_busy_ = false; }
+
+  Busy (const Busy&) = delete;
+  Busy& operator= (const Busy&) = delete;
+
+private:
+  bool& is_busy_;
+};
+
+} // namespace
 
 OnlineFusion::OnlineFusion (const PinholeCamera& camera, const FusionOptions& options,
                             std::shared_ptr<FrameSegmenter> segmenter)
@@ -312,17 +338,12 @@ OnlineFusion& OnlineFusion::operator= (OnlineFusion&&) noexcept = default;
 bool
 OnlineFusion::add (RgbdFrame frame, const Image<std::uint16_t>* mask, const SequenceFusion::FrameCallback& on_frame)
 {
-  const auto requireSize = [&] (int width, int height, const char* what) {
-    if (width != impl_->camera.width || height != impl_->camera.height)
-      throw InvalidArgument (std::string (what) + " has " + std::to_string (width) + " x " + std::to_string (height) +
-                             " pixels, the camera " + std::to_string (impl_->camera.width) + " x " +
-                             std::to_string (impl_->camera.height));
-  };
-  requireSize (frame.depth.width, frame.depth.height, "the depth image");
+  const Busy busy (impl_->is_busy);
+  requireSizeOf (impl_->camera, frame.depth, "the depth image");
   if (!frame.colour.pixels.empty ())
-    requireSize (frame.colour.width, frame.colour.height, "the colour image");
+    requireSizeOf (impl_->camera, frame.colour, "the colour image");
   if (mask)
-    requireSize (mask->width, mask->height, "the mask");
+    requireSizeOf (impl_->camera, *mask, "the mask");
   if (!std::isfinite (frame.stamp) || (impl_->frames > 0 && frame.stamp <= impl_->stamp))
     throw InvalidArgument ("the stamp of a frame must be finite, and larger than that of the frame before");
   impl_->stamp = frame.stamp;
@@ -336,6 +357,7 @@ OnlineFusion::add (RgbdFrame frame, const Image<std::uint16_t>* mask, const Sequ
 FusionResult
 OnlineFusion::complete (const ProgressCallback& progress)
 {
+  const Busy busy (impl_->is_busy);
   if (impl_->run.result ().frames == 0)
     throw DegenerateInput (impl_->frames == 0 ? "there is no frame" : "the camera could not be tracked in any frame");
   if (impl_->run.points () == 0)

@@ -5,6 +5,7 @@
 #include "pcl_cosection/physics/convex_decomposition.h"
 #include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/part_contacts.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -26,20 +27,11 @@ constexpr int grid_along = 64;                 // voxels on which the excess is 
 constexpr std::size_t most_depths = 200000000; // of vertices below faces, for one body
 constexpr int points_along = 6;                // of a face on which it is measured, at most
 
-Eigen::AlignedBox3d
-boxOf (const TriangleMesh& mesh)
-{
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    box.extend (vertex.cast<double> ());
-  return box;
-}
-
 /** \brief The signed distance of a body around it. */
 SignedDistanceField
 distanceAround (const TriangleMesh& mesh, int threads)
 {
-  const Eigen::AlignedBox3d box = boxOf (mesh);
+  const Eigen::AlignedBox3d box = vertexBox (mesh);
   VoxelGrid grid;
   grid.voxel_size_m = box.sizes ().maxCoeff () / grid_along;
   grid.dims = (box.sizes () / grid.voxel_size_m).array ().ceil ().cast<int> () + 3;
@@ -156,7 +148,7 @@ divideBodies (const std::vector<CollisionSource>& sources, const PhysicsOptions&
   std::vector<BodyParts> bodies (sources.size ());
   std::vector<Eigen::AlignedBox3d> boxes; // of the bodies, and so of all their parts
   for (const CollisionSource& source : sources)
-    boxes.push_back (boxOf (source.mesh));
+    boxes.push_back (vertexBox (source.mesh));
   for (std::size_t n = 0; n < sources.size (); ++n)
   {
     ConvexDecompositionOptions division;

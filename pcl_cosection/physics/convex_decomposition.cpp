@@ -2,6 +2,7 @@
 #include "pcl_cosection/physics/convex_decomposition.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/physics/clipped_mesh.h"
 
 #include <pcl/cosection/common/error.h>
@@ -87,9 +88,8 @@ costOf (const Cell& cell, const Eigen::Vector4d& plane, const Body& body)
     if (hull.empty ())
       return std::numeric_limits<double>::infinity ();
     cost += hull.volume_m3 + contactCost (hull, cell.avoid, body);
-    samples[side] = std::count_if (cell.samples.begin (), cell.samples.end (), [&] (const Eigen::Vector3d& p) {
-      return (towards.head<3> ().dot (p) + towards[3] <= 0.0);
-    });
+    samples[side] = std::count_if (cell.samples.begin (), cell.samples.end (),
+                                   [&] (const Eigen::Vector3d& p) { return (heightOver (towards, p) <= 0.0); });
     if (samples[side] == 0)
       return std::numeric_limits<double>::infinity ();
   }
@@ -173,7 +173,7 @@ halfOf (const Cell& cell, const Eigen::Vector4d& plane, const Body& body)
   half.planes = cell.planes;
   half.planes.push_back (plane);
   half.piece = pieceBehind (cell.piece, plane);
-  const auto isBehind = [&] (const Eigen::Vector3d& p) { return plane.head<3> ().dot (p) + plane[3] <= 0.0; };
+  const auto isBehind = [&] (const Eigen::Vector3d& p) { return heightOver (plane, p) <= 0.0; };
   std::copy_if (cell.samples.begin (), cell.samples.end (), std::back_inserter (half.samples), isBehind);
   half.hull = convexHullOf (pointsBetween (body.mesh, half.planes, body.winding));
   std::copy_if (cell.avoid.begin (), cell.avoid.end (), std::back_inserter (half.avoid),

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_cosection/physics/convex_hull_mesh.h"
 
+#include "pcl_cosection/common/plane_height.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -116,7 +118,7 @@ ConvexHull::depthOf (const Eigen::Vector3d& point) const
 {
   double outside = -std::numeric_limits<double>::infinity ();
   for (const Eigen::Vector4d& plane : planes)
-    outside = std::max (outside, plane.head<3> ().dot (point) + plane[3]);
+    outside = std::max (outside, heightOver (plane, point));
   return -outside;
 }
 

@@ -2,6 +2,7 @@
 #include "pcl_cosection/physics/scene_builder.h"
 
 #include "pcl_cosection/common/convex_hull.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/physics/background_parts.h"
 #include "pcl_cosection/physics/body_parts.h"
@@ -9,6 +10,7 @@
 #include "pcl_cosection/physics/resting.h"
 #include "pcl_cosection/physics/scene_frame.h"
 #include "pcl_cosection/physics/visual_mesh.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -60,7 +62,15 @@ planeName (std::size_t number)
   return "support_" + std::to_string (number + 1);
 }
 
-/** \brief A plane as a body, as large as what is near it. */
+/** \brief Whether things can stand on a plane: others are walls. */
+bool
+isLevel (const Eigen::Vector4d& plane, const Eigen::Vector3d& up)
+{
+  constexpr double level = 0.9; // cosine
+  return plane.head<3> ().dot (up) > level;
+}
+
+/** \brief A plane as a body, as large as what is near it; one on which things stand is as large as all of them. */
 PhysicalPlane
 planeBody (const Eigen::Vector4d& plane, const CompletedScene& scene, const PhysicalScene& result, std::size_t number)
 {
@@ -78,19 +88,21 @@ planeBody (const Eigen::Vector4d& plane, const CompletedScene& scene, const Phys
   for (std::size_t n = 0; n < scene.objects.size (); ++n)
   {
     const PhysicalBody& object = result.bodies[n];
+    Eigen::AlignedBox3d box; // along the plane
     for (const Eigen::Vector3f& vertex : object.visual.vertices)
-    {
-      const Eigen::Vector3d p = T_plane_scene * (object.T_scene_body * vertex.cast<double> ());
-      extent.extend (Eigen::Vector2d (p.head<2> ()));
-      deepest = std::min (deepest, p.z ());
-    }
+      box.extend (T_plane_scene * (object.T_scene_body * vertex.cast<double> ()));
+    deepest = std::min (deepest, box.min ().z ());
+    if (isLevel (plane, -result.gravity.normalized ()) || std::abs (box.min ().z ()) < touching_voxels * voxel)
+      extent.extend (Eigen::AlignedBox2d (box.min ().head<2> (), box.max ().head<2> ()));
   }
   const Eigen::AlignedBox2d objects = extent;
   for (const Eigen::Vector3f& vertex : scene.background.vertices)
     if (const Eigen::Vector3d p = T_plane_world * vertex.cast<double> (); std::abs (p.z ()) < touching_voxels * voxel)
       extent.extend (Eigen::Vector2d (p.head<2> ()));
-  if (scene.background.vertices.empty ())
+  if (scene.background.vertices.empty () && !objects.isEmpty ())
     extent = {objects.min () - objects.sizes (), objects.max () + objects.sizes ()};
+  if (extent.isEmpty ()) // neither an object nor background is near it
+    extent = Eigen::AlignedBox2d (Eigen::Vector2d::Constant (-voxel), Eigen::Vector2d::Constant (voxel));
   body.endless = deepest > -touching_voxels * voxel;
   body.half_size_m = 0.5 * extent.sizes ();
   body.T_scene_plane.translation () += body.T_scene_plane.linear () *
@@ -103,11 +115,9 @@ int
 planeBelow (const TriangleMesh& mesh, const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& up,
             double reach_m)
 {
-  constexpr double level = 0.9; // cosine: steeper planes are walls
   int nearest = -1;
   for (std::size_t n = 0; n < planes.size (); ++n)
-    if (const double gap = std::abs (lowestOver (planes[n], mesh));
-        planes[n].head<3> ().dot (up) > level && gap < reach_m)
+    if (const double gap = std::abs (lowestOver (planes[n], mesh)); isLevel (planes[n], up) && gap < reach_m)
     {
       nearest = static_cast<int> (n);
       reach_m = gap;
@@ -217,9 +227,42 @@ heightAlong (const Eigen::Vector3d& up, const TriangleMesh& mesh)
   return -lowestOver (-ground, mesh) - lowestOver (ground, mesh);
 }
 
-/** \brief Find what each body stands on, and make its bottom flat there. What touches nothing, and is no higher over a
- * plane than half its height, was seen at rest, and its bottom was not seen: the outline of its lower half reaches down
- * to the plane. */
+/** \brief Background that is not on a support plane, in the scene's frame: a block, a shelf, a wall. */
+std::vector<Eigen::Vector3d>
+backgroundBesidePlanes (const CompletedScene& scene, const Eigen::Isometry3d& T_scene_world,
+                        const std::vector<Eigen::Vector4d>& planes)
+{
+  const double near_m = touching_voxels * largestVoxelSizeOf (scene);
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& vertex : scene.background.vertices)
+    if (const Eigen::Vector3d p = T_scene_world * vertex.cast<double> ();
+        p.allFinite () && std::none_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
+          return std::abs (heightOver (plane, p)) < near_m;
+        }))
+      points.push_back (p);
+  return points;
+}
+
+/** \brief Whether a body touches a wall, or background that is not on a support plane: it may lean there, or stand. */
+bool
+touchesSurroundings (const CollisionSource& source, const std::vector<Eigen::Vector4d>& planes,
+                     const Eigen::Vector3d& up, const std::vector<Eigen::Vector3d>& background)
+{
+  const double reach_m = touching_voxels * source.voxel_size_m;
+  if (std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
+        return !isLevel (plane, up) && std::abs (lowestOver (plane, source.mesh)) < reach_m;
+      }))
+    return true;
+  const Eigen::AlignedBox3d box = vertexBox (source.mesh);
+  const SurfaceDistance surface (source.mesh);
+  return std::any_of (background.begin (), background.end (), [&] (const Eigen::Vector3d& p) {
+    return box.exteriorDistance (p) < reach_m && (surface.nearest (p).point - p).norm () < reach_m;
+  });
+}
+
+/** \brief Find what each body stands on, and make its bottom flat there. It ends at walls that it touches. What
+ * touches nothing, and is no higher over a plane than half its height, was seen at rest, and its bottom was not seen:
+ * the outline of its lower half reaches down to the plane. */
 void
 standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& up,
                std::vector<CollisionSource>& sources, PhysicalScene& result)
@@ -228,7 +271,12 @@ standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d
   {
     CollisionSource& source = sources[n];
     PhysicalBody& body = result.bodies[n];
-    body.stands_on = planeBelow (source.mesh, planes, up, touching_voxels * source.voxel_size_m);
+    const double reach_m = touching_voxels * source.voxel_size_m;
+    for (const Eigen::Vector4d& plane : planes)
+      if (!isLevel (plane, up) && lowestOver (plane, source.mesh) > -reach_m &&
+          -lowestOver (-plane, source.mesh) > reach_m)
+        source.mesh = flattenedOn (plane, std::move (source.mesh), 0.0);
+    body.stands_on = planeBelow (source.mesh, planes, up, reach_m);
     if (body.stands_on < 0 && !isOverOther (sources, n, up))
       body.stands_on = planeBelow (source.mesh, planes, up, highest_gap * heightAlong (up, source.mesh));
     if (body.stands_on < 0)
@@ -255,11 +303,12 @@ standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d
 
 /** \brief What a simulation of a body would show, and its line in a report does not say. */
 void
-warnOf (const PhysicalBody& body, const BodyParts& parts, bool has_planes, std::vector<std::string>& warnings)
+warnOf (const PhysicalBody& body, bool touches, bool has_planes, std::vector<std::string>& warnings)
 {
   constexpr double least_share = 0.75, smallest_m = 0.001, largest_m = 50.0;
-  if (has_planes && body.stands_on < 0 && !parts.touches_others)
-    warnings.push_back (body.name + ": will not stay: it stands on no support plane, and beside no other object");
+  if (has_planes && body.stands_on < 0 && !touches)
+    warnings.push_back (body.name +
+                        ": will not stay: it stands on no support plane, and beside no other object or background");
   if (const double share = body.parts_volume_m3 / body.volume_m3; share < least_share)
     warnings.push_back (body.name + ": its parts have only " + std::to_string (std::lround (100.0 * share)) +
                         " % of its volume, as other objects are in its place, or planes");
@@ -333,14 +382,15 @@ buildPhysicalScene (const CompletedScene& scene, const PhysicsOptions& options)
     sources.push_back (sourceOf (object, options, T_scene_world));
   standOnPlanes (planes, frame.up, sources, result);
   const std::vector<BodyParts> parts = divideBodies (sources, options);
+  const std::vector<Eigen::Vector3d> background = backgroundBesidePlanes (scene, T_scene_world, planes);
   for (std::size_t n = 0; n < sources.size (); ++n)
   {
     PhysicalBody& body = result.bodies[n];
+    const bool touches = parts[n].touches_others || touchesSurroundings (sources[n], planes, frame.up, background);
     if (body.stands_on >= 0)
-      makeStand (body, parts[n], planes[body.stands_on], parts[n].touches_others && !sources[n].extended,
-                 result.warnings);
+      makeStand (body, parts[n], planes[body.stands_on], touches && !sources[n].extended, result.warnings);
     setParts (parts[n], sources[n], options, body);
-    warnOf (body, parts[n], !planes.empty (), result.warnings);
+    warnOf (body, touches, !planes.empty (), result.warnings);
   }
   addBackground (scene, planes, parts, result);
   return result;

@@ -40,47 +40,25 @@ std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                      const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views, int threads) const
 {
-  OcclusionMap places;
-  places.add (views, points, threads);
-  return bounds (grid, data_distance_vox, observedExtents (points, threads), places, {}, threads);
+  return bounds (grid, data_distance_vox, observedExtents (points, threads), {views, points, threads}, {}, threads);
 }
 
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
-                     const Eigen::Vector3d& extents_m, OcclusionMap& places, const std::vector<std::uint8_t>& exempt,
-                     int threads) const
+                     const Eigen::Vector3d& extents_m, const OcclusionMap& places,
+                     const std::vector<std::uint8_t>& exempt, int threads) const
 {
   const Eigen::Vector3d extents_vox = extents_m / grid.voxel_size_m;
-  const auto allowed = [&] (Hidden hidden) {
-    return static_cast<float> (allowedFactor (*this, hidden) * extents_vox[1]);
-  };
-  const float unquestioned = std::min (
-      {allowed (Hidden::ByObject), allowed (Hidden::ByOther), allowed (Hidden::Nothing)});
-
+  const float unquestioned = std::min ({allowed (extents_vox, Hidden::ByObject), allowed (extents_vox, Hidden::ByOther),
+                                        allowed (extents_vox, Hidden::Nothing)});
+  std::vector<std::uint8_t> wanted (grid.size ());
+  for (std::size_t n = 0; n < wanted.size (); ++n)
+    wanted[n] = data_distance_vox[n] > unquestioned && (exempt.empty () || !exempt[n]);
+  const std::vector<Hidden> hidden = places.ofVoxels (grid, wanted, threads);
   std::vector<float> bounds (grid.size (), 0.0f);
-  const std::vector<VoxelTile> tiles = tilesOf (grid);
-  places.begin (grid);
-  parallelFor (0, static_cast<int> (tiles.size ()), threads, [&] (int t) {
-    const VoxelTile& tile = tiles[t];
-    const auto forEachVoxel = [&] (auto&& f) {
-      std::size_t position = 0;
-      for (int k = tile.first.z (); k < tile.end.z (); ++k)
-        for (int j = tile.first.y (); j < tile.end.y (); ++j)
-          for (int i = tile.first.x (); i < tile.end.x (); ++i, ++position)
-            f (grid.index (i, j, k), position);
-    };
-    const Eigen::Vector3i size = tile.end - tile.first;
-    std::vector<std::uint8_t> wanted (static_cast<std::size_t> (size.prod ()));
-    forEachVoxel ([&] (std::size_t n, std::size_t position) {
-      wanted[position] = data_distance_vox[n] > unquestioned && (exempt.empty () || !exempt[n]);
-    });
-    const std::vector<Hidden> hidden = places.find (tile, wanted);
-    forEachVoxel ([&] (std::size_t n, std::size_t position) {
-      if (wanted[position])
-        bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (hidden[position]));
-    });
-  });
-  places.end ();
+  for (std::size_t n = 0; n < wanted.size (); ++n)
+    if (wanted[n])
+      bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (extents_vox, hidden[n]));
   return bounds;
 }
 

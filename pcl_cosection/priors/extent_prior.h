@@ -50,6 +50,13 @@ struct ExtentPrior
     return std::max ({depth_factor, occluded_factor, side_factor}) * extents_m[1];
   }
 
+  /** \brief Allowed distance of a voxel from the nearest data, in the unit of the extents. */
+  float allowed (const Eigen::Vector3d& extents, Hidden by) const
+  {
+    const double factor = by == Hidden::ByObject ? depth_factor : by == Hidden::ByOther ? occluded_factor : side_factor;
+    return static_cast<float> (factor * extents[1]);
+  }
+
   /** \brief Bounds in voxels; 0 for voxels without a bound.
    * \param[in] data_distance_vox distance to the nearest voxel with data
    * \param[in] points of the object, the grid's frame
@@ -63,17 +70,8 @@ struct ExtentPrior
    * \param[in] extents_m observedExtents () of its points
    * \param[in] exempt 1 for voxels that get no bound; or empty */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
-                             const Eigen::Vector3d& extents_m, OcclusionMap& places,
+                             const Eigen::Vector3d& extents_m, const OcclusionMap& places,
                              const std::vector<std::uint8_t>& exempt, int threads) const;
 };
-
-/** \brief Allowed distance of a voxel from the nearest data, as a fraction of the middle observed extent. */
-inline double
-allowedFactor (const ExtentPrior& prior, Hidden hidden)
-{
-  return hidden == Hidden::ByObject  ? prior.depth_factor
-         : hidden == Hidden::ByOther ? prior.occluded_factor
-                                     : prior.side_factor;
-}
 
 } // namespace pcl::cosection

@@ -42,7 +42,7 @@ fitShape (const Observation& object, const ObjectSetting& setting, const std::op
   const Profiles profiles{setting.priors.revolution, setting.priors.vessels};
   if (!plane)
     return ProfiledShape (object.points (), setting.is_alone, profiles);
-  const ProfiledShape shape (object.points (), *plane, profiles);
+  ProfiledShape shape (object.points (), *plane, profiles);
   if (!(shape.wallThickness () > 0.0))
     return shape;
   const Eigen::Vector3d up = plane->head<3> ();
@@ -70,7 +70,9 @@ fitShape (const Observation& object, const ObjectSetting& setting, const std::op
   const auto floor = std::count_if (object.points ().begin (), object.points ().end (), [&] (const OrientedPoint& p) {
     return is_at_floor (p.position.cast<double> (), floor_m);
   });
-  return ground >= least_ground && ground > floor ? shape.withoutFloor () : shape;
+  if (ground >= least_ground && ground > floor)
+    shape.openFloor ();
+  return shape;
 }
 
 } // namespace

@@ -29,7 +29,7 @@ isAtPlane (const Eigen::Vector3d& p, const std::vector<Eigen::Vector4d>& planes,
 } // namespace
 
 double
-hiddenOutline (const Observation& object, const std::vector<Eigen::Vector4d>& planes,
+hiddenOutline (const Observation& object, bool is_cut_out, const std::vector<Eigen::Vector4d>& planes,
                const SignedDistanceField& completed, double enough)
 {
   const double near_m = near_voxels * completed.grid.voxel_size_m;
@@ -43,7 +43,7 @@ hiddenOutline (const Observation& object, const std::vector<Eigen::Vector4d>& pl
   for (const auto& [view, T_object_sensor] : object.views)
   {
     const ObjectImage image (*view, T_object_sensor, *object.all_points, object.voxel_size_m);
-    if (const std::optional<double> hidden = image.hiddenOutline (hidesNothing))
+    if (const std::optional<double> hidden = image.hiddenOutline (is_cut_out, hidesNothing))
       least = std::min (*hidden, least.value_or (*hidden));
     if (least && *least <= enough)
       break;

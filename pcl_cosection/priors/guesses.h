@@ -14,9 +14,10 @@ namespace pcl::cosection {
 
 /** \brief Share of an object's outline beside which something else is nearer, in the view where it is least, or the
  * first one where it is at most \a enough; 0 without views.
+ * \param[in] is_cut_out what is around it was removed
  * \param[in] planes that bound the object, n.x + d = 0, unit n towards it: what is at one, before the object, hides
  * nothing of it \param[in] completed surface, near which what is nearer is the object's own */
-double hiddenOutline (const Observation& object, const std::vector<Eigen::Vector4d>& planes,
+double hiddenOutline (const Observation& object, bool is_cut_out, const std::vector<Eigen::Vector4d>& planes,
                       const SignedDistanceField& completed, double enough);
 
 /** \brief How far a mesh reaches behind the only side of it that was seen, which is flat, metres.

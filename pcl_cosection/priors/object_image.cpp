@@ -109,7 +109,7 @@ ObjectImage::firstReading (const Eigen::Array2i& pixel, const Eigen::Array2i& st
 }
 
 std::optional<double>
-ObjectImage::hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const
+ObjectImage::hiddenOutline (bool is_cut_out, const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const
 {
   const Eigen::Isometry3d T_object_sensor = T_sensor_object_.inverse ();
   Eigen::AlignedBox2i box;
@@ -119,7 +119,7 @@ ObjectImage::hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& 
         box.extend (Eigen::Vector2i (u, v));
   if (box.isEmpty ())
     return std::nullopt;
-  const int reach = std::max (edge_px, box.sizes ().maxCoeff ());
+  const int reach = is_cut_out ? edge_px : std::max (edge_px, box.sizes ().maxCoeff ());
   const auto isHidden = [&] (const Eigen::Array2i& pixel, const Eigen::Array2i& step) {
     const std::optional<Eigen::Array2i> beyond = firstReading (pixel, step, reach);
     if (!beyond)

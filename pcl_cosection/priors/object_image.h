@@ -43,8 +43,10 @@ public:
   /** \brief Share of the object's outline beside which something else is nearer; nothing without an outline. There may
    * be no readings between, no farther than the object is large in the image: beside what is near, some sensors have a
    * shadow.
+   * \param[in] is_cut_out what is around the object was removed: only what is next to it hides it
    * \param[in] hides_nothing whether a reading, a place in the points' frame, does not count */
-  std::optional<double> hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const;
+  std::optional<double> hiddenOutline (bool is_cut_out,
+                                       const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const;
 
 private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max ();

@@ -72,8 +72,8 @@ addSpaceBeforeSurface (const Observation& object, BodyEnergy& energy)
  * \param[in] expected_vox distance to data and to surface that is expected
  * \param[in] unbounded 1 where it does not apply, or empty */
 void
-addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMap& hidden,
-                const std::vector<float>& expected_vox, const std::vector<std::uint8_t>& unbounded, BodyEnergy& energy)
+addExtentPrior (const ExtentPrior& prior, const Observation& object, const std::vector<float>& expected_vox,
+                const std::vector<std::uint8_t>& unbounded, BodyEnergy& energy)
 {
   const VoxelGrid& grid = energy.grid;
   const CoSectionOptions& options = energy.options;
@@ -82,7 +82,8 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
   std::vector<std::uint8_t> bounded (grid.size ());
   for (std::size_t n = 0; n < grid.size (); ++n)
     bounded[n] = static_cast<bool> (exterior[n]) || (!unbounded.empty () && unbounded[n]);
-  std::vector<float> bounds = prior.bounds (grid, expected_vox, object.extents_m, hidden, bounded, options.threads);
+  std::vector<float> bounds = prior.bounds (grid, expected_vox, object.extents_m, object.hidden, bounded,
+                                            options.threads);
   if (energy.empty != energy.free_space)
   {
     // The bound on a ray without return is at most the distance to the nearest voxel that is not on such a ray.
@@ -201,7 +202,7 @@ const ProposedShape*
 usedProposal (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   const ProposedShape* shape = setting.priors.proposals ? proposedShape (object, setting, planes) : nullptr;
-  return shape && shape->is_used ? shape : nullptr;
+  return shape && shape->fit.used ? shape : nullptr;
 }
 
 /** \brief What the network completes, if the measurements confirm it and the object is no vessel, whose walls are finer
@@ -213,7 +214,7 @@ usedCompletion (const Observation& object, const ObjectSetting& setting, const s
   if (!setting.priors.learned || !object.network || !plane || shapeOf (object, setting, plane).wallThickness () > 0.0)
     return nullptr;
   const LearnedShape* shape = learnedShape (object, setting, *plane);
-  return shape && shape->is_used ? shape : nullptr;
+  return shape && shape->fit.used ? shape : nullptr;
 }
 
 /** \brief What priors expect that know nothing of the network. */
@@ -332,7 +333,7 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
 
 void
 addPriors (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes,
-           OcclusionMap& hidden, BodyEnergy& energy)
+           BodyEnergy& energy)
 {
   const Priors& priors = setting.priors;
   const std::vector<Eigen::Vector4d> resting = restingPlanes (object, setting, planes, energy);
@@ -349,7 +350,7 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
     addSpaceBeforeSurface (object, energy);
   const auto addExpected = [&] (const Proposal& proposal) {
     if (priors.extent)
-      addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
+      addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object,
                       distanceToExpected (proposal, energy), proposal.unbounded, energy);
     if (!proposal.empty ())
       addProposal (proposal, energy);

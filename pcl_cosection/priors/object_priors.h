@@ -37,6 +37,7 @@ struct Observation
   Eigen::Vector3d extents_m = Eigen::Vector3d::Zero ();   // observedExtents () of the points
   std::shared_ptr<const DepthView> virtual_view;          // from a virtual viewpoint, if there are no views; else null
   OcclusionMap::Views views;                              // views with a known pose of the object, or the virtual view
+  OcclusionMap hidden;                                    // occlusion of its volume by these views
   std::shared_ptr<ShapeFits> fits;                        // shapes that were fitted to the points so far
   const std::vector<TriangleMesh>* proposals = nullptr;   // meshes that may be its shape
   std::shared_ptr<ProposedShapes> proposed;               // the best of them, once it is aligned
@@ -53,7 +54,6 @@ struct ObjectSetting
   bool is_alone = false;                                             // no plane, background or obstacle is known
   const std::vector<OrientedPoint>& background;                      // world frame; empty: the object was cut out
   Eigen::Isometry3d T_object_world = Eigen::Isometry3d::Identity (); // in its first view
-  const OcclusionMap& hidden;                                        // occlusion of the object's volume by its views
   Priors priors = {};                                                // which ones are on
   int threads = 0;                                                   // 0: all
   // Whether a place may belong to another object: it is in a box of that one's points. \param[in] up of the box
@@ -80,9 +80,8 @@ Eigen::AlignedBox3d boxDownToPlanes (const Observation& object, const ObjectSett
 
 /** \brief Add the terms of all priors that the options enable to an object's energy.
  * \param[in] planes on which it may stand
- * \param[in,out] hidden occlusion of the object's volume by its views
  * \param[in,out] energy with data term and free space */
 void addPriors (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes,
-                OcclusionMap& hidden, BodyEnergy& energy);
+                BodyEnergy& energy);
 
 } // namespace pcl::cosection

@@ -169,7 +169,7 @@ boxWithFeet (const Observation& object, const ObjectSetting& setting, const std:
     for (std::size_t p = 0; p < object.points ().size (); p += object.points ().size () / most_feet + 1)
     {
       const Eigen::Vector3d foot = footOn (plane, object.points ()[p].position.cast<double> ());
-      if (setting.hidden.at (foot) != Hidden::Nothing)
+      if (object.hidden.at (foot) != Hidden::Nothing)
         box.extend (foot);
     }
   // Its corners may be behind others, where it goes on beside what was seen.
@@ -178,7 +178,7 @@ boxWithFeet (const Observation& object, const ObjectSetting& setting, const std:
     for (int c = 0; c < 8; ++c)
     {
       const Eigen::Vector3d foot = footOn (plane, seen.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c)));
-      if (setting.hidden.isBehindOther (foot))
+      if (object.hidden.isBehindOther (foot))
         box.extend (foot);
     }
   return box;

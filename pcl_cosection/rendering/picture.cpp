@@ -51,6 +51,20 @@ shade (const RasterImage& image, const PinholeCamera& camera, const std::array<s
   return picture;
 }
 
+PinholeCamera
+fittingCamera (const std::vector<const TriangleMesh*>& meshes, const Eigen::Isometry3d& T_world_camera, int size_px,
+               double filled)
+{
+  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse ();
+  Eigen::AlignedBox2d box;
+  for (const TriangleMesh* mesh : meshes)
+    for (const Eigen::Vector3f& vertex : mesh->vertices)
+      box.extend ((T_camera_world * vertex.cast<double> ()).hnormalized ());
+  const double focal_length = filled * size_px / std::max (box.sizes ().maxCoeff (), 1e-9);
+  const Eigen::Vector2d middle = Eigen::Vector2d::Constant (0.5 * (size_px - 1)) - focal_length * box.center ();
+  return {size_px, size_px, focal_length, focal_length, middle.x (), middle.y ()};
+}
+
 std::vector<std::array<std::uint8_t, 3>>
 provenanceColours (const TriangleMesh& mesh)
 {

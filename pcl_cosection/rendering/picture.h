@@ -16,6 +16,11 @@ namespace pcl::cosection {
 PCL_COSECTION_EXPORT Picture shade (const RasterImage& image, const PinholeCamera& camera,
                                     const std::array<std::uint8_t, 3>& background = {255, 255, 255});
 
+/** \brief A camera whose square picture all vertices of some meshes fill, as far as is wanted.
+ * \param[in] size_px of the picture \param[in] filled share of its longer side */
+PCL_COSECTION_EXPORT PinholeCamera fittingCamera (const std::vector<const TriangleMesh*>& meshes,
+                                                  const Eigen::Isometry3d& T_world_camera, int size_px, double filled);
+
 /** \brief Per-vertex colours that show provenance: observed grey, inferred orange, hull blue,
  * intersection green. */
 PCL_COSECTION_EXPORT std::vector<std::array<std::uint8_t, 3>> provenanceColours (const TriangleMesh& mesh);

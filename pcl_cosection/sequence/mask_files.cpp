@@ -2,6 +2,7 @@
 #include "mask_files.h"
 
 #include "numbered_files.h"
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/io/mask_image.h"
 #include "stamp_matching.h"

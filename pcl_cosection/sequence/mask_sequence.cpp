@@ -3,6 +3,7 @@
 
 #include "mask_files.h"
 #include "numbered_files.h"
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/io/mask_image.h"
 #include "resized_image.h"
 #include "stamp_matching.h"

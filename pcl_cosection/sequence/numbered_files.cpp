@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "numbered_files.h"
 
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/io/text_scanner.h"
 #include "stamp_matching.h"
@@ -230,12 +231,6 @@ pairedFiles (const std::string& folder, const std::vector<std::string>& names, c
     return std::tie (x.first, x.second) < std::tie (y.first, y.second);
   });
   return files;
-}
-
-std::string
-firstAndMore (const std::vector<std::string>& things)
-{
-  return things.size () == 1 ? things[0] : things[0] + " and " + std::to_string (things.size () - 1) + " more";
 }
 
 } // namespace pcl::cosection

@@ -64,7 +64,4 @@ std::optional<double> numberAtEnd (const std::string& text);
 std::vector<NumberedFile> numberedImages (const std::string& folder, const NumberedNames& usual,
                                           std::vector<std::string>& warnings);
 
-/** \brief "a" for one, "a and 3 more" for four. */
-std::string firstAndMore (const std::vector<std::string>& things);
-
 } // namespace pcl::cosection

@@ -28,6 +28,7 @@ const char* const replica_camera = "cam_params.json";
 constexpr double tum_depth_scale = 5000.0;
 constexpr double millimetres = 1000.0;
 constexpr double nearest_median_m = 0.05;
+constexpr double nearest_of_kinect_m = 0.4; // the camera of the TUM benchmark sees nothing nearer
 constexpr double farthest_median_m = 100.0;
 constexpr double far_off_centre = 0.25;        // a principal point, of the image's size
 constexpr double off_centre = 0.1;             // of images 1.25 times as large it is .125 off
@@ -49,7 +50,7 @@ requireFile (const std::string& path)
 
 /** \brief What is odd about the depths of an image; empty if nothing is. */
 std::string
-depthOddity (const Image<float>& depth, const std::string& path)
+depthOddity (const Image<float>& depth, const std::string& path, double nearest_m)
 {
   std::vector<float> readings;
   std::copy_if (depth.pixels.begin (), depth.pixels.end (), std::back_inserter (readings),
@@ -57,11 +58,10 @@ depthOddity (const Image<float>& depth, const std::string& path)
   if (readings.empty ())
     return path + ": has no depth in any pixel";
   const float middle = upperMedian (readings);
-  if (middle >= nearest_median_m && middle <= farthest_median_m)
+  if (middle >= nearest_m && middle <= farthest_median_m)
     return {};
   std::ostringstream text;
-  text << path << ": half of the depths are " << (middle < nearest_median_m ? "less" : "more") << " than " << middle
-       << " m; ";
+  text << path << ": half of the depths are " << (middle < nearest_m ? "less" : "more") << " than " << middle << " m; ";
   text << (lowerCaseExtension (path) == ".exr" ? "an .exr must be in metres"
                                                : "give --depth-scale if their unit is another");
   return text.str ();
@@ -136,6 +136,7 @@ RgbdSequence::RgbdSequence (const std::string& folder, const SequenceSource& sou
   depth_scale_ = source.depth_scale > 0.0         ? source.depth_scale
                  : format_ == SequenceFormat::Tum ? tum_depth_scale
                                                   : millimetres;
+  scale_is_assumed_ = format_ == SequenceFormat::Tum && !(source.depth_scale > 0.0);
   setCamera (listing.folder, source);
 }
 
@@ -156,7 +157,10 @@ RgbdSequence::setCamera (const std::string& folder, const SequenceSource& source
     const CameraFile read = readCameraFile (file);
     camera_ = read.camera;
     if (read.depth_scale && !(source.depth_scale > 0.0))
+    {
       depth_scale_ = *read.depth_scale;
+      scale_is_assumed_ = false;
+    }
     size_source_ = file;
   }
   else if (format_ == SequenceFormat::SevenScenes)
@@ -295,7 +299,8 @@ RgbdSequence::read (std::size_t index, std::vector<std::string>& warnings) const
   if (frame.depth.width != camera_.width || frame.depth.height != camera_.height)
     throw IoError (files.depth + ": has " + sizeText (frame.depth.width, frame.depth.height) + ", but " + size_source_ +
                    " has " + sizeText (camera_.width, camera_.height));
-  const std::string oddity = depthOddity (frame.depth, files.depth);
+  const std::string oddity = depthOddity (frame.depth, files.depth,
+                                          scale_is_assumed_ ? nearest_of_kinect_m : nearest_median_m);
   if (!oddity.empty ())
     warnings.push_back (oddity);
   if (files.colour.empty ())

@@ -2,6 +2,7 @@
 #include "sequence_layouts.h"
 
 #include "numbered_files.h"
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "stamp_matching.h"
 #include "stamped_list.h"

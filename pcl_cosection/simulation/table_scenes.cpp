@@ -2,10 +2,10 @@
 #include "table_scenes.h"
 
 #include "new_folder.h"
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/common/require.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/rendering/picture.h"
-#include "pcl_cosection/sequence/numbered_files.h"
 #include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/view/organized_cloud.h"
 #include "random_numbers.h"
@@ -198,7 +198,7 @@ TableSceneOptions::validate () const
   require (scenes >= 0 && scenes <= 100000, "scenes must be 0 to 100000");
   require (per_scene >= 1 && per_scene <= 1000, "per_scene must be 1 to 1000");
   require (views >= 1 && views <= 1000, "views must be 1 to 1000");
-  require (std::isfinite (camera_height_m) && camera_height_m > 0.0, "camera_height_m must be a positive length");
+  require (isPositive (camera_height_m), "camera_height_m must be a positive length");
   require (std::isfinite (camera_distance_m) && camera_distance_m >= 0.0,
            "camera_distance_m must be a length that is not negative");
   require (std::abs (mask_dilation_px) <= 100, "mask_dilation_px must be -100 to 100");

@@ -26,4 +26,13 @@ lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::
   return pose;
 }
 
+Eigen::Isometry3d
+lookingAlong (const Eigen::Vector3d& eye, const Eigen::Vector3d& axis)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
+  pose.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), axis).toRotationMatrix ();
+  pose.translation () = eye;
+  return pose;
+}
+
 } // namespace pcl::cosection

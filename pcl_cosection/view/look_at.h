@@ -13,4 +13,7 @@ namespace pcl::cosection {
 PCL_COSECTION_EXPORT Eigen::Isometry3d lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                                                const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ ());
 
+/** \brief Pose of a sensor at \a eye that looks along \a axis; the roll does not matter. */
+Eigen::Isometry3d lookingAlong (const Eigen::Vector3d& eye, const Eigen::Vector3d& axis);
+
 } // namespace pcl::cosection

@@ -24,7 +24,6 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double intrinsics_tolerance_px = 2.0;
 constexpr double same_place = 0.05;       // of the distance to the points: two places of one sensor
 constexpr double least_reliable = 0.15;   // share of a label's points with a reliable normal ...
@@ -43,8 +42,6 @@ constexpr float noise_sigmas = 4.0f; // there readings are on it, but for noise 
 constexpr float slope_error = 0.2f;  // ... and this share of the way
 constexpr int most_beyond = 2;       // readings of other labels on it: it goes on there
 constexpr double least_width_px = 1.6; // standard deviation across the alike pixels: a band of five has 1.4, of six 1.7
-
-constexpr double much_elsewhere = 0.05; // of the points of a label; real labels have 1 to 3 % of something else
 
 /** \brief Root mean square distance of the points from their pixels under a camera. */
 double

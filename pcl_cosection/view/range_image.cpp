@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "range_image.h"
 
+#include "look_at.h"
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
 #include "sensor_noise.h"
@@ -27,16 +28,6 @@ constexpr std::size_t samples = 2000;
 constexpr double unsure_share = 0.1; // of the points, may face away from the sensor, or be hidden from it
 constexpr double distance_diagonals = 5.0;
 constexpr float nothing = std::numeric_limits<float>::infinity ();
-
-/** \brief Looking from \a eye along \a axis; the roll does not matter. */
-Eigen::Isometry3d
-lookingAlong (const Eigen::Vector3d& eye, const Eigen::Vector3d& axis)
-{
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), axis).toRotationMatrix ();
-  pose.translation () = eye;
-  return pose;
-}
 
 /** \brief Points before a camera: slopes x/z, y/z and depth z. */
 struct Projection

@@ -344,8 +344,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   dropStrangeNormals (path, members, cloud, result);
   const bool given = !cloud.normals.empty ();
   if (!given)
-    cloud.normals.assign (cloud.positions.size (),
-                          Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+    cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
   const Surroundings objects = surroundingsOf (members, cloud);
   const BackgroundParts background = partsOfBackground (objects, members, cloud);
   const std::set<std::uint32_t> contradicting = given ? contradictingLabels (members, cloud)

@@ -14,6 +14,7 @@ Array = npt.NDArray[Any]
 Shape = Tuple[Union[int, str], ...]
 
 MILLIMETRE = 0.001
+_ROUNDING = 1e-3  # of colours
 
 
 def _text(shape: Sequence[object]) -> str:
@@ -22,6 +23,9 @@ def _text(shape: Sequence[object]) -> str:
 
 def as_array(name: str, value: Any) -> Array:
     """Any array; of numbers or truth values."""
+    if np.ma.isMaskedArray(value) and np.ma.is_masked(value):
+        raise InvalidArgument(f"{name}: is a masked array; give its filled(), with NaN for what was not measured "
+                              "(0 among whole numbers)")
     try:
         array = np.asarray(value)
     except (TypeError, ValueError) as error:
@@ -78,6 +82,9 @@ def colour_array(name: str, value: Any, shape: Sequence[int]) -> Optional[Array]
         return None
     array = check_shape(name, as_array(name, value), (*shape, 3))
     if array.dtype.kind == "f":
+        if array.size > 0 and (np.nanmax(array) > 1.0 + _ROUNDING or np.nanmin(array) < -_ROUNDING):
+            raise InvalidArgument(f"{name}: expected bytes or floats in [0, 1], got floats from {np.nanmin(array)} to "
+                                  f"{np.nanmax(array)}")
         array = np.rint(np.clip(np.nan_to_num(array), 0.0, 1.0) * 255.0)
     elif array.dtype != np.uint8:
         raise InvalidArgument(f"{name}: expected bytes or floats in [0, 1], got an array of {array.dtype}")

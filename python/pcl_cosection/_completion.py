@@ -68,13 +68,9 @@ class Completion:
         self.origin_m: _arrays.Array = data.origin_m
         self.planes: _arrays.Array = np.array(data.planes, dtype=np.float64).reshape(-1, 4)
         self.background = _mesh_or_none(data.background)
-        self.objects: Dict[int, Object] = {}
-        self.failed: Dict[int, str] = {}
-        for values in data.objects:
-            if values["error"]:
-                self.failed[values["id"]] = values["error"]
-            else:
-                self.objects[values["id"]] = Object(values, self.warnings)
+        given = data.objects
+        self.objects: Dict[int, Object] = {one["id"]: Object(one, self.warnings) for one in given if not one["error"]}
+        self.failed: Dict[int, str] = {one["id"]: one["error"] for one in given if one["error"]}
 
     @property
     def summary(self) -> Dict[str, Any]:

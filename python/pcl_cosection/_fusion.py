@@ -86,13 +86,10 @@ class FusionResult:
         self.T_world_camera: _arrays.Array
         self.stamps, self.T_world_camera = data.camera
         self.background: Optional[Mesh] = _mesh_or_none(data.background)
-        self.objects: Dict[int, TrackedObject] = {}
-        self.failed: Dict[int, str] = {}
-        for values in data.objects:
-            if values["error"]:
-                self.failed[values["id"]] = values["error"]
-            else:
-                self.objects[values["id"]] = TrackedObject(values, self.warnings)
+        given = data.objects
+        self.objects: Dict[int, TrackedObject] = {one["id"]: TrackedObject(one, self.warnings)
+                                                  for one in given if not one["error"]}
+        self.failed: Dict[int, str] = {one["id"]: one["error"] for one in given if one["error"]}
 
     def save(self, output: str | os.PathLike[str]) -> List[str]:
         """Write meshes, trajectories and summary.json into a folder, as the program pcl_cosection_fusion does.

@@ -1,11 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 #include <stdlib.h>
@@ -84,24 +83,6 @@ writeFile (const std::string& path, const std::string& bytes)
 {
   std::filesystem::remove (path); // some file systems wait for the disk when a file is overwritten
   std::ofstream (path, std::ios::binary) << bytes;
-}
-
-/** \brief The message of the exception of type \a Exception that \a action throws. */
-template <typename Exception, typename Action>
-std::string
-messageOf (Action&& action)
-{
-  try
-  {
-    action ();
-  }
-  catch (const Exception& error)
-  {
-    EXPECT_EQ (std::string (error.what ()).find ('\n'), std::string::npos);
-    return error.what ();
-  }
-  ADD_FAILURE () << "no exception of the expected type";
-  return {};
 }
 
 } // namespace pcl::cosection::test

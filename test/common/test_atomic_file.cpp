@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
+#include "message_of.h"
 #include "temporary_folder.h"
 
 #include "pcl_cosection/common/files.h"

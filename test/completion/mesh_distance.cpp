@@ -1,35 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_distance.h"
 
+#include "common/triangle_distance.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl::cosection::test {
-namespace {
-
-double
-segmentDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  const Eigen::Vector3d ab = b - a;
-  const double t = std::clamp ((p - a).dot (ab) / std::max (ab.squaredNorm (), 1e-30), 0.0, 1.0);
-  return (p - a - t * ab).norm ();
-}
-
-double
-triangleDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                  const Eigen::Vector3d& c)
-{
-  const Eigen::Vector3d n = (b - a).cross (c - a);
-  const bool above = n.cross (b - a).dot (p - a) >= 0.0 && n.cross (c - b).dot (p - b) >= 0.0 &&
-                     n.cross (a - c).dot (p - c) >= 0.0;
-  if (above && n.squaredNorm () > 0.0)
-    return std::abs (n.dot (p - a)) / n.norm ();
-  return std::min ({segmentDistance (p, a, b), segmentDistance (p, b, c), segmentDistance (p, c, a)});
-}
-
-} // namespace
 
 MeshDistance::MeshDistance (const TriangleMesh& mesh, double reach_m) : mesh_ (mesh), reach_m_ (reach_m)
 {
@@ -64,7 +42,7 @@ MeshDistance::operator() (const Eigen::Vector3d& p) const
           const auto vertex = [&] (int i) -> Eigen::Vector3d {
             return mesh_.vertices[mesh_.triangles[t][i]].cast<double> ();
           };
-          nearest = std::min (nearest, triangleDistance (p, vertex (0), vertex (1), vertex (2)));
+          nearest = std::min (nearest, distanceToTriangle (p, vertex (0), vertex (1), vertex (2)));
         }
       }
   return nearest;

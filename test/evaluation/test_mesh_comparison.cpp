@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-#include "common/temporary_folder.h"
+#include "common/message_of.h"
+#include "common/triangle_distance.h"
 #include "evaluation_meshes.h"
 
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"

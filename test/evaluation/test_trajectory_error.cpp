@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-#include "common/temporary_folder.h"
+#include "common/message_of.h"
 #include "evaluation_meshes.h"
 
 #include "pcl_cosection/evaluation/rigid_alignment.h"

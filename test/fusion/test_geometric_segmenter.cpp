@@ -10,39 +10,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
 namespace {
-
-/** \brief Labels points of the world as a function says; it may be wrong. */
-class PointsOfTheWorld : public FrameSegmenter
-{
-public:
-  using Label = std::function<int (const Eigen::Vector3d& world, int frame)>;
-
-  explicit PointsOfTheWorld (Label label) : label_ (std::move (label)) {}
-
-  FrameInstances segment (const ObservedFrame& frame) override
-  {
-    FrameInstances found;
-    found.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
-    for (std::size_t n = 0; n < frame.points.size (); ++n)
-      if (std::isfinite (frame.points[n].z ()))
-        found.mask->pixels[n] = static_cast<std::uint16_t> (
-            label_ (frame.T_world_camera * frame.points[n].cast<double> (), static_cast<int> (frame.images.index)));
-    return found;
-  }
-
-  bool findsAll () const override { return false; }
-
-  bool isExact () const override { return false; }
-
-private:
-  Label label_;
-};
 
 DynamicFusionOptions
 everyFive ()
@@ -130,7 +102,7 @@ TEST (UnreliableMasks, AnObjectThatFallsIntoPartsInOneMaskStaysOne)
   TrackedScene scene (24);
   scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
   const TrackedRun run = scene.run (noMask, everyFive (),
-                                    std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+                                    std::make_shared<FakeSegmenter> ([] (const Eigen::Vector3d& p, int frame) {
                                       return !isThing (p, 0.0) ? 0 : frame == 10 && p.x () > 0.0 ? 7 : 3;
                                     }));
   EXPECT_EQ (run.found.size (), 1u);
@@ -144,7 +116,7 @@ TEST (UnreliableMasks, TwoObjectsThatAreOneInstanceOnceStayTwo)
   scene.addThing (1, along ({0.0}, {{-0.15, 0.0, 0.0}}));
   scene.addThing (2, along ({0.0}, {{0.15, 0.0, 0.0}}));
   const TrackedRun run = scene.run (
-      noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+      noMask, everyFive (), std::make_shared<FakeSegmenter> ([] (const Eigen::Vector3d& p, int frame) {
         const int label = isThing (p, -0.15) && p.x () < 0.0 ? 1 : isThing (p, 0.15) ? 2 : 0;
         return label > 0 && frame == 10 ? 9 : label;
       }));
@@ -159,7 +131,7 @@ TEST (UnreliableMasks, PartsThatMoveAsOneAreUnited)
   const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {0.25, 0.0, 0.0}});
   scene.addThing (1, motion);
   const TrackedRun run = scene.run (noMask, everyFive (),
-                                    std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+                                    std::make_shared<FakeSegmenter> ([&] (const Eigen::Vector3d& p, int frame) {
                                       const double x = motion.at (frame / 36.0).translation ().x ();
                                       return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                     }));
@@ -176,7 +148,7 @@ TEST (UnreliableMasks, PartsThatAreUnitedBetweenMasksStayOne)
     const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {end, 0.0, 0.0}});
     scene.addThing (1, motion);
     const TrackedRun run = scene.run (noMask, everyFive (),
-                                      std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+                                      std::make_shared<FakeSegmenter> ([&] (const Eigen::Vector3d& p, int frame) {
                                         const double x = motion.at (frame / 36.0).translation ().x ();
                                         return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                       }));
@@ -191,7 +163,7 @@ TEST (UnreliableMasks, WhatOneMaskShowedIsNoObject)
 {
   TrackedScene scene (20);
   const TrackedRun run = scene.run (
-      noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+      noMask, everyFive (), std::make_shared<FakeSegmenter> ([] (const Eigen::Vector3d& p, int frame) {
         return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; // of the floor
       }));
   EXPECT_TRUE (run.found.empty ());
@@ -205,7 +177,7 @@ TEST (UnreliableMasks, WhatTheBorderCutsBeginsNoObject)
 {
   TrackedScene scene (12);
   const TrackedRun run = scene.run (noMask, everyFive (),
-                                    std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int) {
+                                    std::make_shared<FakeSegmenter> ([] (const Eigen::Vector3d& p, int) {
                                       return p.z () < 0.1 && p.y () < -0.3 ? 1 : 0; // the floor at the lower border
                                     }));
   EXPECT_TRUE (run.found.empty ());

@@ -1,8 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Frames as oriented points and views.
+// Frames as oriented points and views, and their masks.
 
-#include "common/temporary_folder.h"
+#include "common/message_of.h"
+#include "pcl_cosection/fusion/mask_reader.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/keyframe.h>
@@ -11,6 +12,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -115,6 +118,37 @@ TEST_F (KeyframeTest, WithoutMaskAllIsBackgroundAndWithoutColourNone)
     EXPECT_EQ (point.colour, (std::array<std::uint8_t, 3>{0, 0, 0}));
 }
 
+/** \brief A square in front of a wall, and masks of it. */
+TEST (Masks, WhatReachesBeyondItsObjectIsOfWhatItShows)
+{
+  const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
+  RgbdFrame frame;
+  frame.depth = Image<float> (64, 48, 2.0f);
+  const auto square = [] (int border) {
+    Image<std::uint16_t> mask (64, 48, 0);
+    for (int v = 14 - border; v < 34 + border; ++v)
+      for (int u = 22 - border; u < 42 + border; ++u)
+        mask.at (u, v) = 7;
+    return mask;
+  };
+  for (std::size_t n = 0; n < frame.depth.pixels.size (); ++n)
+    if (square (0).pixels[n] == 7)
+      frame.depth.pixels[n] = 1.0f;
+  for (const int border : {0, 3})
+  {
+    MaskReader reader ([&] (const RgbdFrame&) { return square (border); }, camera);
+    const auto mask = reader.read (frame);
+    ASSERT_TRUE (mask);
+    EXPECT_EQ (mask->pixels, square (0).pixels) << border;
+    const std::vector<std::string> warnings = reader.warnings ();
+    ASSERT_EQ (warnings.size (), border > 0 ? 1u : 0u);
+    if (border > 0)
+      EXPECT_NE (warnings[0].find ("41 % of the pixels of label 7 of the masks are on other surfaces"),
+                 std::string::npos)
+          << warnings[0];
+  }
+}
+
 TEST_F (KeyframeTest, WrongSizesAndOptionsAreRefused)
 {
   mask_ = Image<std::uint16_t> (32, 24);
@@ -123,6 +157,9 @@ TEST_F (KeyframeTest, WrongSizesAndOptionsAreRefused)
   mask_ = {};
   frame_.depth = Image<float> (64, 47, 1.0f);
   EXPECT_NE (messageOf<InvalidArgument> ([&] { keyframe (); }).find ("the depth image has 64 x 47"), std::string::npos);
+  frame_.depth = Image<float> (64, 48, 1.0f);
+  frame_.depth.pixels.resize (100);
+  EXPECT_NE (messageOf<InvalidArgument> ([&] { keyframe (); }).find ("holds 100 pixels"), std::string::npos);
   KeyframeOptions options;
   options.max_depth_m = std::nan ("");
   EXPECT_THROW (options.validate (), InvalidArgument);

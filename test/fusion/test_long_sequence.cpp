@@ -2,6 +2,7 @@
 
 // A sequence may go on for as long as it likes: what is remembered of it is bounded.
 
+#include "ball_and_box.h"
 #include "io/sequence_folder.h"
 
 #include "pcl_cosection/simulation/sequence_writer.h"
@@ -22,18 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const scene = R"({
-  "frames": 12,
-  "camera": {"width": 160, "height": 120, "keys": [
-    {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
-    {"time": 0.4, "position": [0.3, -0.7, 0.5], "look_at": [0, 0, 0.05]}]},
-  "background": {"parts": [{"type": "room", "size": [2, 2, 1.5], "position": [0, 0, 0.75]},
-    {"type": "box", "size": [0.3, 0.3, 0.3], "position": [0.4, 0.5, 0.15], "rpy_deg": [0, 0, 20]}]},
-  "objects": [
-    {"name": "ball", "shape": {"type": "sphere", "radius": 0.1},
-     "keys": [{"time": 0, "position": [-0.15, 0, 0.1]}, {"time": 0.4, "position": [-0.15, 0.1, 0.1]}]},
-    {"name": "box", "shape": {"type": "box", "size": [0.16, 0.12, 0.1]}, "keys": [{"position": [0.12, 0, 0.05]}]}]
-})";
+const char* const walls = R"({"type": "room", "size": [2, 2, 1.5], "position": [0, 0, 0.75]},
+    {"type": "box", "size": [0.3, 0.3, 0.3], "position": [0.4, 0.5, 0.15], "rpy_deg": [0, 0, 20]})";
 
 constexpr int rendered = 12;
 constexpr int played = 900;
@@ -83,7 +74,7 @@ smallOptions ()
 TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
 {
   const SequenceFolder folder;
-  writeSequence (parseSceneSpec (scene, "scene"), folder.path ("rendered"));
+  writeSequence (parseSceneSpec (sceneJson (rendered, 160, 120, 0.4, walls), "scene"), folder.path ("rendered"));
   fs::copy_file (folder.path ("rendered/calibration.txt"), folder.newPath ("long/calibration.txt"));
   for (int n = 0; n < played; ++n)
   {

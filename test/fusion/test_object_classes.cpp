@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -23,49 +22,13 @@ constexpr int frames_per_mask = 5;
 
 const ClassScore cup_score = {41, "cup", 0.9}, bowl_score = {45, "bowl", 0.8}, part_score = {7, "part", 0.6};
 
-/** \brief Labels points of the world as a function says, and names classes as another one does. */
-class NamingSegmenter : public FrameSegmenter
-{
-public:
-  using Label = std::function<int (const Eigen::Vector3d& world, int frame)>;
-  using Classes = std::function<std::map<std::uint16_t, ClassScore> (int frame)>;
-
-  NamingSegmenter (bool exact, Label label, Classes classes)
-      : exact_ (exact)
-      , label_ (std::move (label))
-      , classes_ (std::move (classes))
-  {}
-
-  FrameInstances segment (const ObservedFrame& frame) override
-  {
-    const auto index = static_cast<int> (frame.images.index);
-    FrameInstances found;
-    found.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
-    for (std::size_t n = 0; n < frame.points.size (); ++n)
-      if (std::isfinite (frame.points[n].z ()))
-        found.mask->pixels[n] = static_cast<std::uint16_t> (
-            label_ (frame.T_world_camera * frame.points[n].cast<double> (), index));
-    found.classes = classes_ (index);
-    return found;
-  }
-
-  bool findsAll () const override { return exact_; }
-
-  bool isExact () const override { return exact_; }
-
-private:
-  bool exact_;
-  Label label_;
-  Classes classes_;
-};
-
 TrackedRun
-runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, NamingSegmenter::Classes classes,
+runWith (const TrackedScene& scene, bool exact, FakeSegmenter::Label label, FakeSegmenter::Classes classes,
          const MaskPolicy& masks = noMask)
 {
   DynamicFusionOptions options;
   options.segment_every = frames_per_mask;
-  return scene.run (masks, options, std::make_shared<NamingSegmenter> (exact, std::move (label), std::move (classes)));
+  return scene.run (masks, options, std::make_shared<FakeSegmenter> (std::move (label), exact, std::move (classes)));
 }
 
 } // namespace

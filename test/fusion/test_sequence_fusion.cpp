@@ -2,6 +2,7 @@
 
 // Sequences whose poses and masks are known: which frames are used, and for what.
 
+#include "common/message_of.h"
 #include "completion/analytic_scene.h"
 #include "io/sequence_folder.h"
 

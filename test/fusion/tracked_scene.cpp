@@ -38,6 +38,21 @@ noMask (int /*frame*/, const Image<std::uint16_t>& /*truth*/)
   return std::nullopt;
 }
 
+FrameInstances
+FakeSegmenter::segment (const ObservedFrame& frame)
+{
+  const auto index = static_cast<int> (frame.images.index);
+  FrameInstances found;
+  found.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
+  for (std::size_t n = 0; n < frame.points.size (); ++n)
+    if (std::isfinite (frame.points[n].z ()))
+      found.mask->pixels[n] = static_cast<std::uint16_t> (
+          label_ (frame.T_world_camera * frame.points[n].cast<double> (), index));
+  if (classes_)
+    found.classes = classes_ (index);
+  return found;
+}
+
 bool
 isThing (const Eigen::Vector3d& p, double x)
 {

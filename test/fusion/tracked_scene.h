@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl::cosection::test {
@@ -39,6 +40,32 @@ KeyedMotion movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 
 /** \brief Through places at times, of a second, without turning. */
 KeyedMotion along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& places);
+
+/** \brief Labels points of the world as a function says, which may be wrong, and names classes as another one does. */
+class FakeSegmenter : public FrameSegmenter
+{
+public:
+  using Label = std::function<int (const Eigen::Vector3d& world, int frame)>;
+  using Classes = std::function<std::map<std::uint16_t, ClassScore> (int frame)>;
+
+  /** \param[in] exact whether it says that it finds all and that its masks are exact */
+  explicit FakeSegmenter (Label label, bool exact = false, Classes classes = {})
+      : label_ (std::move (label))
+      , exact_ (exact)
+      , classes_ (std::move (classes))
+  {}
+
+  FrameInstances segment (const ObservedFrame& frame) override;
+
+  bool findsAll () const override { return exact_; }
+
+  bool isExact () const override { return exact_; }
+
+private:
+  Label label_;
+  bool exact_;
+  Classes classes_;
+};
 
 /** \brief The results of the front end for a scene, and the truth. */
 struct TrackedRun

@@ -23,13 +23,6 @@ namespace {
 const std::string separator = "%%\n"; // between two lists
 
 void
-requireMessages (const std::vector<std::string>& messages)
-{
-  for (const std::string& message : messages)
-    fuzz::requireMessage (message);
-}
-
-void
 list (const std::string& folder)
 {
   const SequenceListing listing = listSequence (folder, {});
@@ -41,7 +34,7 @@ list (const std::string& folder)
     fuzz::require (n == 0 || listing.files[n - 1].stamp < files.stamp, "stamps ascend");
     fuzz::require (!files.depth.empty (), "a frame has depth");
   }
-  requireMessages (listing.warnings);
+  fuzz::requireMessages (listing.warnings);
 }
 
 void
@@ -70,10 +63,7 @@ readPose (const std::string& bytes)
 {
   static fuzz::MemoryFile file;
   file.set (bytes);
-  const Eigen::Isometry3d pose = readPoseMatrix (file.path ());
-  fuzz::require (pose.matrix ().allFinite (), "poses are finite");
-  fuzz::require ((pose.linear () * pose.linear ().transpose ()).isIdentity (1e-9), "rotations are orthonormal");
-  fuzz::require (pose.linear ().determinant () > 0.0, "rotations are not reflections");
+  fuzz::requireRigid (readPoseMatrix (file.path ()));
 }
 
 /** \brief As the truth of an evaluation has it. */
@@ -85,7 +75,7 @@ readCalibration (const std::string& bytes)
   folder.set ("calibration.txt", bytes);
   ReadingNotes notes;
   const SceneRecord truth = readTruth (folder.path (), notes);
-  requireMessages (notes.warnings);
+  fuzz::requireMessages (notes.warnings);
   fuzz::require (notes.whole == truth.intrinsics.has_value (), "a camera was read, or a warning says why not");
   if (truth.intrinsics)
     truth.intrinsics->validate ();

@@ -31,20 +31,13 @@ runFolder ()
   return (folder);
 }
 
-void
-requireMessages (const std::vector<std::string>& messages)
-{
-  for (const std::string& message : messages)
-    fuzz::requireMessage (message);
-}
-
 /** \brief What the viewer makes of a run. */
 bool
 viewRun (const std::string& folder)
 {
   ReadingNotes notes;
   const RunScene scene = loadRunScene (folder, notes);
-  requireMessages (notes.warnings);
+  fuzz::requireMessages (notes.warnings);
   scene.camera ().validate ();
   for (const auto& [id, name] : scene.classes)
     fuzz::require (!name.empty (), "a class has a name");
@@ -66,7 +59,7 @@ reportRun (const std::string& folder)
   ReportContent content;
   content.threads = 1;
   content.run = readRunFolder (folder);
-  requireMessages (content.run.notes);
+  fuzz::requireMessages (content.run.notes);
   content.scene = sceneOf (content.run);
   content.warnings = content.run.notes;
   const std::string data = asScriptText (sceneData (content));
@@ -105,7 +98,7 @@ viewResult (const std::string& bytes)
 {
   ReadingNotes notes;
   const RunScene scene = loadRunScene (resultFolder (bytes), notes);
-  requireMessages (notes.warnings);
+  fuzz::requireMessages (notes.warnings);
   fuzz::require (!scene.stamps ().empty (), "a result has a frame");
   SceneView view;
   view.width = view.height = 64;
@@ -130,11 +123,11 @@ bool
 readResult (const std::string& bytes)
 {
   const CompletedResult result = readCompletedResult (resultFolder (bytes));
-  requireMessages (result.warnings);
+  fuzz::requireMessages (result.warnings);
   PhysicsOptions options;
   options.threads = 1;
   const PhysicalScene scene = buildPhysicalScene (result.scene, options);
-  requireMessages (scene.warnings);
+  fuzz::requireMessages (scene.warnings);
   for (const PhysicalBody& body : scene.bodies)
     fuzz::require (!body.name.empty () && body.mass_kg > 0.0 && body.centre_m.allFinite () && !body.parts.empty (),
                    "a body has a name, mass and parts");

@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -37,6 +40,23 @@ inline void
 requireMessage (const std::string& message)
 {
   require (!message.empty () && message.find ('\n') == std::string::npos, "an error's message is one line");
+}
+
+/** \brief Messages of errors or warnings: each is one line that says something. */
+inline void
+requireMessages (const std::vector<std::string>& messages)
+{
+  for (const std::string& message : messages)
+    requireMessage (message);
+}
+
+/** \brief A motion as it is read from a file. */
+inline void
+requireRigid (const Eigen::Isometry3d& pose)
+{
+  require (pose.matrix ().allFinite (), "poses are finite");
+  require ((pose.linear () * pose.linear ().transpose ()).isIdentity (1e-9), "rotations are orthonormal");
+  require (pose.linear ().determinant () > 0.0, "rotations are not reflections");
 }
 
 } // namespace fuzz

@@ -22,10 +22,7 @@ check (const std::vector<StampedPose>& poses)
   {
     fuzz::require (std::isfinite (poses[n].stamp), "stamps are finite");
     fuzz::require (n == 0 || poses[n - 1].stamp < poses[n].stamp, "stamps ascend");
-    const Eigen::Isometry3d& pose = poses[n].pose;
-    fuzz::require (pose.matrix ().allFinite (), "poses are finite");
-    fuzz::require ((pose.linear () * pose.linear ().transpose ()).isIdentity (1e-9), "rotations are orthonormal");
-    fuzz::require (pose.linear ().determinant () > 0.0, "rotations are not reflections");
+    fuzz::requireRigid (poses[n].pose);
   }
 }
 

@@ -1,10 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "test/common/temporary_folder.h"
+
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -46,32 +47,6 @@ private:
   const std::string path_;
 };
 
-/** \brief A new folder that lives as long as the object. */
-class TemporaryFolder
-{
-public:
-  TemporaryFolder ()
-  {
-    std::string pattern = (std::filesystem::temp_directory_path () / "fuzz_XXXXXX").string ();
-    if (mkdtemp (&pattern[0]) == nullptr)
-      throw std::runtime_error ("cannot create " + pattern);
-    path_ = pattern;
-  }
-  TemporaryFolder (const TemporaryFolder&) = delete;
-  TemporaryFolder& operator= (const TemporaryFolder&) = delete;
-
-  ~TemporaryFolder ()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all (path_, ignored);
-  }
-
-  std::string file (const std::string& name) const { return ((path_ / name).string ()); }
-
-private:
-  std::filesystem::path path_;
-};
-
 /** \brief A file in memory by names of any extension, for what is read by its name. */
 class NamedMemoryFile : public MemoryFile
 {
@@ -86,7 +61,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  pcl::cosection::test::TemporaryFolder folder_;
 };
 
 /** \brief A folder of files in memory, for what is read by the names in a folder. */
@@ -111,7 +86,7 @@ public:
   std::string path (const std::string& name = "") const { return (folder_.file (name)); }
 
 private:
-  TemporaryFolder folder_;
+  pcl::cosection::test::TemporaryFolder folder_;
   std::map<std::string, std::unique_ptr<MemoryFile>> files_;
 };
 

@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "common/message_of.h"
+#include "common/temporary_folder.h"
+
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/io/pcd_view.h>
 
@@ -9,9 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -20,17 +20,7 @@ namespace pcl::cosection::test {
 class PcdView : public testing::Test
 {
 protected:
-  PcdView ()
-      : folder_ (std::filesystem::temp_directory_path () /
-                 ("pcd_view_" + std::to_string (getpid ()) + "_" +
-                  testing::UnitTest::GetInstance ()->current_test_info ()->name ()))
-  {
-    std::filesystem::create_directories (folder_);
-  }
-
-  ~PcdView () override { std::filesystem::remove_all (folder_); }
-
-  std::string path (const std::string& name) const { return ((folder_ / name).string ()); }
+  std::string path (const std::string& name) const { return (folder_.file (name)); }
 
   std::string write (const std::string& content, const std::string& name = "cloud.pcd") const
   {
@@ -41,22 +31,12 @@ protected:
   /** \brief The message of the error that reading \a file gives. */
   template <typename Expected> std::string failure (const std::string& file, const PcdViewOptions& options = {}) const
   {
-    try
-    {
-      readPcdView (file, options);
-    }
-    catch (const Expected& error)
-    {
-      const std::string message = error.what ();
-      EXPECT_EQ (message.find ('\n'), std::string::npos) << message;
-      EXPECT_NE (message.find (file), std::string::npos) << message;
-      return (message);
-    }
-    ADD_FAILURE () << "no error for " << file;
-    return ("");
+    const std::string message = messageOf<Expected> ([&] { readPcdView (file, options); });
+    EXPECT_NE (message.find (file), std::string::npos) << message;
+    return (message);
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 /** \brief A header with the float fields x y z and further given fields. */

@@ -2,6 +2,8 @@
 
 // Damaged or unusual PCD files are read correctly or refused. See also test/fuzz.
 
+#include "common/message_of.h"
+#include "common/replaced.h"
 #include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>
@@ -16,6 +18,7 @@
 
 using namespace pcl::cosection;
 using test::messageOf;
+using test::replaced;
 
 namespace {
 
@@ -32,12 +35,6 @@ header (const std::string& encoding, const std::string& label = "label", const s
 }
 
 const std::string two_lines = "1 2 3 0 0 1 7\n4 5 6 0 0 1 7\n";
-
-std::string
-replaced (std::string text, const std::string& from, const std::string& to)
-{
-  return (text.replace (text.find (from), from.size (), to));
-}
 
 class HostilePcd : public testing::Test
 {

@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "common/message_of.h"
 #include "common/temporary_folder.h"
 
 #include "pcl_cosection/io/image_io.h"

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
+#include "common/message_of.h"
 #include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>

@@ -277,6 +277,31 @@ TEST (SceneBuilder, ABodyWhoseCentreIsBesideItsFeetIsMadeToStand)
   }
 }
 
+TEST (SceneBuilder, BodiesEndAtWallsAndLeanOnThem)
+{
+  // A box that reaches a little into the wall x = 0, and a board whose top leans on it; another box is far from it.
+  const float into_m = -0.5f * static_cast<float> (test_voxel_m);
+  const Eigen::Isometry3d leaning (Eigen::Translation3d (0.102, 0.3, 0.0) *
+                                   Eigen::AngleAxisd (-0.35, Eigen::Vector3d::UnitY ()));
+  CompletedScene scene = sceneOf ({objectOf (1, "box", boxMesh ({into_m, 0.0f, 0.0f}, {0.1f, 0.1f, 0.1f})),
+                                   objectOf (2, "board", boxMesh ({0.0f, 0.0f, 0.0f}, {0.01f, 0.2f, 0.3f}), leaning),
+                                   objectOf (3, "far", boxMesh ({0.5f, -1.0f, 0.0f}, {0.6f, -0.9f, 0.1f}))});
+  const auto warnsOfTheBoard = [] (const PhysicalScene& built) {
+    return std::any_of (built.warnings.begin (), built.warnings.end (),
+                        [] (const std::string& line) { return line.find ("board_2") != std::string::npos; });
+  };
+  EXPECT_TRUE (warnsOfTheBoard (buildPhysicalScene (scene, {}))); // without the wall it would fall
+  scene.planes.emplace_back (1.0, 0.0, 0.0, 0.0);
+  const PhysicalScene built = buildPhysicalScene (scene, {});
+  EXPECT_FALSE (warnsOfTheBoard (built));
+  EXPECT_EQ (built.bodies[1].centre_shift_m, 0.0);
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const TriangleMesh& part : built.bodies[n].parts)
+      for (const Eigen::Vector3f& vertex : part.vertices)
+        EXPECT_GT ((built.bodies[n].T_scene_body * vertex.cast<double> ()).x (), -1e-6);
+  EXPECT_LT (2.0 * built.planes[1].half_size_m.maxCoeff (), 3.01 * 0.5); // of what is near it, and as much around
+}
+
 TEST (SceneBuilder, WithoutAPlaneThereIsAWarning)
 {
   CompletedScene completed = fourThings ();

@@ -4,6 +4,7 @@
 
 #include "physical_scenes.h"
 
+#include "common/message_of.h"
 #include "common/temporary_folder.h"
 #include "pcl_cosection/physics/formats/scene_writers.h"
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_cosection/physics/formats/scene_writers.h"
 
+#include "common/message_of.h"
 #include "common/temporary_folder.h"
 #include "physics/scene_to_write.h"
 

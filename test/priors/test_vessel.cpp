@@ -184,8 +184,7 @@ TEST (Vessel, GroundThatWasSeenBesideItOpensNoFloor)
     for (const DepthView& view : views)
       object.views.emplace_back (&view, view.T_world_sensor);
     object.fits = std::make_shared<ShapeFits> ();
-    const OcclusionMap hidden;
-    const ObjectSetting setting{false, seen_ground, Eigen::Isometry3d::Identity (), hidden};
+    const ObjectSetting setting{false, seen_ground, Eigen::Isometry3d::Identity ()};
     const std::vector<OrientedPoint> all = shapeOf (object, setting, ground).hiddenSide (points, 0.001);
     return std::any_of (all.begin (), all.end (), [] (const OrientedPoint& p) {
       return p.normal.z () > 0.95f && p.position.head<2> ().norm () < 0.02f && p.position.z () < 0.01f;

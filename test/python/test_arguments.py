@@ -51,6 +51,9 @@ class Arguments(unittest.TestCase):
         self.check(self.complete(DEPTH > 0, LABELS, CAMERA), "depth: expected depths, got an array of truth values")
         self.check(self.complete(DEPTH, LABELS, CAMERA, colours=np.zeros((120, 160, 3), np.int64)),
                    "colours: expected bytes")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, colours=np.full((120, 160, 3), 255.0)),
+                   "colours: expected bytes or floats in [0, 1], got floats from 255.0")
+        self.check(self.complete(np.ma.masked_less(DEPTH, 1.0), LABELS, CAMERA), "view: is a masked array")
         self.check(self.complete(DEPTH, LABELS, CAMERA, obstacles=[3]), "obstacles[0]: expected a mesh", "got int")
         self.check(self.complete(DEPTH, LABELS, CAMERA, progress=3), "progress: expected a function", "got int")
         self.check(lambda: pcl_cosection.evaluate.mesh(TRIANGLE, 3), "reconstruction: expected a mesh")

@@ -129,6 +129,18 @@ TEST_F (ClassNames, OfNoListAreAnError)
   EXPECT_THROW (loadClassNames (write (std::string (1000, 'a'))), IoError);
 }
 
+TEST (InstanceLabels, ImagesOfWrongSizesAreRefused)
+{
+  std::vector<DetectedInstance> cut = table_scene;
+  cut[1].mask.pixels.resize (3);
+  Image<std::uint8_t> readings (labels_width, labels_height, 1);
+  EXPECT_NO_THROW (labelInstances (table_scene, labels_width, labels_height, {}, readings));
+  EXPECT_THROW (labelInstances (cut, labels_width, labels_height, {}, readings), InvalidArgument);
+  EXPECT_THROW (labelInstances (table_scene, -labels_width, -labels_height, {}, {}), InvalidArgument);
+  readings.pixels.resize (3);
+  EXPECT_THROW (labelInstances (table_scene, labels_width, labels_height, {}, readings), InvalidArgument);
+}
+
 TEST (ClassRoles, AreChecked)
 {
   const std::vector<std::string> names = {"person", "cup", ""};

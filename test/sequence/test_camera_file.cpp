@@ -2,6 +2,7 @@
 
 // Cameras and frames as other programs write them.
 
+#include "common/message_of.h"
 #include "io/sequence_folder.h"
 
 #include "pcl_cosection/sequence/camera_file.h"

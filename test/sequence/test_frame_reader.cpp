@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "common/message_of.h"
 #include "io/sequence_folder.h"
 
 #include <pcl/cosection/common/error.h>

@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "common/message_of.h"
 #include "io/sequence_folder.h"
 
 #include <pcl/cosection/common/error.h>
@@ -309,6 +310,24 @@ TEST (RgbdSequenceErrors, WrongUnitsAreTold)
       mentions (warnings, "Depth0000.exr: half of the depths are more than 1500 m; an .exr must be in metres"));
   sequence.read (1, warnings);
   EXPECT_TRUE (mentions (warnings, "Depth0001.png: has no depth in any pixel"));
+}
+
+TEST (RgbdSequenceErrors, MillimetresInTheLayoutOfTumAreTold)
+{
+  SequenceFolder folder;
+  folder.text ("calibration.txt", "10 10 3.5 2.5 8 6");
+  folder.text ("associations.txt", "1.0 rgb/0.png 1.0 depth/0.png\n");
+  folder.colour ("rgb/0.png", 0);
+  folder.depth ("depth/0.png", 0, 1000.0);
+  saveDepthImage (Image<float> (8, 6, 0.9f), folder.path ("depth/0.png"));
+  for (const double scale : {0.0, 1000.0})
+  {
+    SequenceSource source;
+    source.depth_scale = scale;
+    std::vector<std::string> warnings;
+    RgbdSequence (folder.path (), source).read (0, warnings);
+    EXPECT_EQ (mentions (warnings, "half of the depths are less than 0.18 m; give --depth-scale"), scale == 0.0);
+  }
 }
 
 TEST (RgbdSequenceErrors, OptionsOutsideTheirDomain)

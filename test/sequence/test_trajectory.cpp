@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "common/message_of.h"
 #include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>
@@ -25,15 +26,7 @@ protected:
 
   std::string failure (const std::string& text) const
   {
-    try
-    {
-      load (text);
-    }
-    catch (const IoError& error)
-    {
-      return error.what ();
-    }
-    return "";
+    return messageOf<IoError> ([&] { load (text); });
   }
 
   TemporaryFolder folder_;

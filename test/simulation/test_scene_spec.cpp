@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "common/replaced.h"
 #include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>
@@ -129,8 +130,8 @@ TEST (SceneSpec, EveryMistakeIsNamed)
 TEST (SceneSpec, ACameraThatPassesWhatItLooksAtIsSaid)
 {
   const std::string keys = "\"look_at\": [0, 0, 0]}, {\"time\": 1, \"position\": [0, 1, -0.5], \"look_at\": [0, 0, 0]}";
-  std::string text = spec ("\"look_at\": [0, 0, 0]}", keys);
-  text.replace (text.find ("\"objects\""), 9, "\"frames\": 3, \"rate\": 2, \"objects\"");
+  const std::string text = test::replaced (spec ("\"look_at\": [0, 0, 0]}", keys), "\"objects\"",
+                                           "\"frames\": 3, \"rate\": 2, \"objects\"");
   EXPECT_NE (errorOf (text).find ("camera.keys are not right: at frame 1, look_at is where the camera is"),
              std::string::npos)
       << errorOf (text);

@@ -1,4 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "common/triangle_distance.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
@@ -39,22 +41,6 @@ roundedBoxVolume (double x, double y, double z, double r)
 {
   const double a = x - 2 * r, b = y - 2 * r, c = z - 2 * r;
   return a * b * c + 2 * r * (a * b + b * c + c * a) + M_PI * r * r * (a + b + c) + 4.0 / 3.0 * M_PI * r * r * r;
-}
-
-double
-distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                    const Eigen::Vector3d& c)
-{
-  const auto toSegment = [&p] (const Eigen::Vector3d& s, const Eigen::Vector3d& e) {
-    const double t = std::clamp ((p - s).dot (e - s) / (e - s).squaredNorm (), 0.0, 1.0);
-    return (s + t * (e - s) - p).norm ();
-  };
-  const Eigen::Vector3d n = (b - a).cross (c - a);
-  const Eigen::Vector3d foot = p - n.dot (p - a) / n.squaredNorm () * n;
-  const bool inside = n.dot ((b - a).cross (foot - a)) >= 0 && n.dot ((c - b).cross (foot - b)) >= 0 &&
-                      n.dot ((a - c).cross (foot - c)) >= 0;
-  const double edges = std::min ({toSegment (a, b), toSegment (b, c), toSegment (c, a)});
-  return inside ? std::min (edges, (p - foot).norm ()) : edges;
 }
 
 class Shapes : public testing::TestWithParam<Case>
@@ -114,12 +100,7 @@ TEST_P (Shapes, DistanceIsThatToTheSurface)
   for (int n = 0; n < 40; ++n)
   {
     const Eigen::Vector3d p (place (random), place (random), place (random));
-    double nearest = 1.0;
-    for (const auto& [a, b, c] : mesh.triangles)
-      nearest = std::min (nearest,
-                          distanceToTriangle (p, mesh.vertices[a].cast<double> (), mesh.vertices[b].cast<double> (),
-                                              mesh.vertices[c].cast<double> ()));
-    EXPECT_NEAR (std::abs (shape->distance (p)), nearest, 1.5e-4) << p.transpose ();
+    EXPECT_NEAR (std::abs (shape->distance (p)), test::bruteForceSurfaceDistance (mesh, p), 1.5e-4) << p.transpose ();
   }
 }
 

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/temporary_folder.h"
 #include "scene_files.h"
 #include "tool_run.h"
 
@@ -15,37 +14,15 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <vector>
 
 constexpr double ball_m3 = 4.0 / 3.0 * M_PI * 0.001; ///< of writeSphere ()
 
-class AnyCloud : public testing::Test
+class AnyCloud : public ToolTest
 {
 protected:
-  std::string path (const std::string& name) const { return (folder_.file (name)); }
-
-  void write (const std::string& name, const std::string& content) const
-  {
-    std::ofstream (path (name), std::ios::binary) << content;
-  }
-
-  /** \brief Run in the folder. \return the exit status; what it printed is in output_ and errors_ */
-  int run (const std::vector<std::string>& arguments)
-  {
-    ToolRun tool (arguments, folder_.file (""));
-    const int status = tool.wait ();
-    output_ = tool.output ();
-    errors_ = tool.errors ();
-    return (status);
-  }
-
-  nlohmann::json summary () const
-  {
-    std::ifstream file (path ("s.json"));
-    return (nlohmann::json::parse (file));
-  }
+  nlohmann::json summary () const { return (json ("s.json")); }
 
   double volume (const std::string& name) const
   {
@@ -73,7 +50,4 @@ protected:
     }
     pcl::io::savePCDFileBinary (path (name), half);
   }
-
-  const pcl::cosection::test::TemporaryFolder folder_;
-  std::string output_, errors_;
 };

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_measures.h"
 
+#include "common/triangle_distance.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -15,15 +17,6 @@ namespace pcl::cosection::test {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
-
-double
-distanceToSegment (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
-{
-  const Eigen::Vector3d ab = b - a;
-  const double length2 = ab.squaredNorm ();
-  const double t = length2 > 0.0 ? std::clamp (ab.dot (p - a) / length2, 0.0, 1.0) : 0.0;
-  return ((p - a - t * ab).norm ());
-}
 
 /** \brief The numbers of the attribute \a name of an XML header. */
 std::vector<double>
@@ -75,19 +68,6 @@ leastSquaresPlane (const std::vector<Eigen::Vector3d>& points)
 }
 
 } // namespace
-
-double
-distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                    const Eigen::Vector3d& c)
-{
-  const Eigen::Vector3d normal = (b - a).cross (c - a);
-  const double length = normal.norm ();
-  const bool above = length > 0.0 && normal.dot ((b - a).cross (p - a)) >= 0.0 &&
-                     normal.dot ((c - b).cross (p - b)) >= 0.0 && normal.dot ((a - c).cross (p - c)) >= 0.0;
-  if (above)
-    return (std::abs (normal.dot (p - a)) / length);
-  return (std::min ({distanceToSegment (p, a, b), distanceToSegment (p, b, c), distanceToSegment (p, c, a)}));
-}
 
 ExactMeshDistance::ExactMeshDistance (const TriangleMesh& mesh)
 {

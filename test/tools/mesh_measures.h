@@ -14,10 +14,6 @@
 
 namespace pcl::cosection::test {
 
-/** \brief Exact distance of a point to a triangle. */
-double distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                           const Eigen::Vector3d& c);
-
 /** \brief Exact distances of points to a mesh, by a binary tree of boxes. */
 class ExactMeshDistance
 {

@@ -225,6 +225,7 @@ TEST (CommandLine, WrongUsageIsNamed)
   for (const char* value : {"-1", "0", "nan", "-nan", "inf", "abc", "1x"})
     expect (std::string ("a.pcd out --voxel-size ") + value, "--voxel-size");
   expect ("a.pcd out --voxel-size", "--voxel-size needs a value");
+  expect ("--free-space= a.pcd b.pcd out", "--free-space needs a value; it is empty");
   expect ("--alpha 1 --alpha 2 a.pcd out", "--alpha is given more than once");
   expect ("--voxel-size 1 --resolution 64 a.pcd out", "exclude each other");
   expect ("--quiet --verbose a.pcd out", "exclude each other");

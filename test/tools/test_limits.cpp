@@ -225,7 +225,7 @@ TEST_F (Limits, WhatIsWrittenToTryAFolderIsATemporaryFile)
   ASSERT_GE (inotify_add_watch (watch, path ("").c_str (), IN_CREATE), 0);
   requireWritable (path ("out.ply"));
   alignas (inotify_event) char events[4096] = {};
-  const ssize_t size = read (watch, events, sizeof (events));
+  const ssize_t size = ::read (watch, events, sizeof (events));
   close (watch);
   ASSERT_GT (size, 0);
   // By such a name the next run knows what is left of one that was killed.

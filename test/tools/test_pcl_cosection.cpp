@@ -11,13 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -27,48 +23,15 @@ using namespace pcl::cosection;
 
 namespace {
 
-class PclCosection : public testing::Test
+class PclCosection : public ToolTest
 {
 protected:
-  PclCosection ()
-      : folder_ (fs::temp_directory_path () / ("pcl_cosection_" + std::to_string (getpid ()) + "_" +
-                                               testing::UnitTest::GetInstance ()->current_test_info ()->name ()))
-  {
-    fs::create_directories (folder_);
-  }
-
-  ~PclCosection () override { fs::remove_all (folder_); }
-
-  std::string path (const std::string& name) const { return ((folder_ / name).string ()); }
-
-  void write (const std::string& name, const std::string& content) const
-  {
-    std::ofstream (path (name), std::ios::binary) << content;
-  }
-
-  std::string read (const std::string& name) const
-  {
-    std::ifstream file (path (name), std::ios::binary);
-    return (std::string ((std::istreambuf_iterator<char> (file)), {}));
-  }
-
   /** \brief Run to a failure of \a status that says \a part in one line and leaves no output. */
-  void expectFailure (const std::vector<std::string>& arguments, int status, const std::string& part) const
+  void expectFailure (const std::vector<std::string>& arguments, int status, const std::string& part)
   {
     SCOPED_TRACE (testing::PrintToString (arguments));
-    ToolRun run (arguments, folder_.string ());
-    EXPECT_EQ (run.wait (), status);
-    const std::string errors = run.errors ();
-    EXPECT_NE (errors.find ("pcl_cosection: error: "), std::string::npos) << errors;
-    EXPECT_NE (errors.find (part), std::string::npos) << errors;
-    int error_lines = 0;
-    std::istringstream lines (errors);
-    for (std::string line; std::getline (lines, line);)
-    {
-      EXPECT_EQ (line.rfind ("pcl_cosection: ", 0), 0u) << line;
-      error_lines += line.rfind ("pcl_cosection: error: ", 0) == 0;
-    }
-    EXPECT_EQ (error_lines, 1) << errors;
+    EXPECT_EQ (run (arguments), status);
+    expectOneError (errors_, part);
     EXPECT_FALSE (fs::exists (path ("out")));
     EXPECT_FALSE (fs::exists (path ("out.ply")));
   }
@@ -80,8 +43,6 @@ protected:
       names.insert (entry.path ().filename ().string ());
     return (names);
   }
-
-  fs::path folder_;
 };
 
 std::string
@@ -98,22 +59,19 @@ asciiCloud (int count, const std::string& lines, bool labels = false)
 
 TEST_F (PclCosection, HelpAndVersion)
 {
-  ToolRun help ({"--help"}, folder_.string ());
-  EXPECT_EQ (help.wait (), 0);
-  EXPECT_NE (help.output ().find ("Examples:"), std::string::npos);
-  std::istringstream lines (help.output ());
+  EXPECT_EQ (run ({"--help"}), 0);
+  EXPECT_NE (output_.find ("Examples:"), std::string::npos);
+  std::istringstream lines (output_);
   for (std::string line; std::getline (lines, line);)
     EXPECT_LE (line.size (), 100u) << line;
-  ToolRun version ({"--version"}, folder_.string ());
-  EXPECT_EQ (version.wait (), 0);
-  EXPECT_EQ (version.output ().rfind ("pcl_cosection ", 0), 0u);
+  EXPECT_EQ (run ({"--version"}), 0);
+  EXPECT_EQ (output_.rfind ("pcl_cosection ", 0), 0u);
 }
 
 TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
 {
   writeTableScene (path ("scene.pcd"));
-  ToolRun run ({"--resolution", "32", "--save-sdf", "--json", "s.json", "scene.pcd", "out"}, folder_.string ());
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
+  ASSERT_EQ (run ({"--resolution", "32", "--save-sdf", "--json", "s.json", "scene.pcd", "out"}), 0) << errors_;
   EXPECT_EQ (files ("out"), (std::set<std::string>{"background.ply", "object_1.ply", "object_1.vti", "object_2.ply",
                                                    "object_2.vti", "summary.json"}));
   EXPECT_EQ (read ("out/summary.json"), read ("s.json"));
@@ -136,7 +94,7 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
   EXPECT_LT (mean_error, 0.0075);                                                    // two voxels
   EXPECT_LT ((ball.centroid_m - Eigen::Vector3d (-0.09, 0.0, 0.06)).norm (), 0.015); // world frame
 
-  const nlohmann::json summary = nlohmann::json::parse (read ("s.json"));
+  const nlohmann::json summary = json ("s.json");
   const auto keys = [] (const nlohmann::json& object) {
     std::set<std::string> names;
     for (const auto& item : object.items ())
@@ -170,13 +128,11 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
 TEST_F (PclCosection, WhatAnEarlierRunLeftIsRemoved)
 {
   writeTableScene (path ("scene.pcd"));
-  ToolRun first ({"--resolution", "20", "--save-bounds", "scene.pcd", "out"}, folder_.string ());
-  ASSERT_EQ (first.wait (), 0) << first.errors ();
+  ASSERT_EQ (run ({"--resolution", "20", "--save-bounds", "scene.pcd", "out"}), 0) << errors_;
   EXPECT_EQ (files ("out").count ("object_2_outer.ply"), 1u);
   for (const char* name : {"out/object_7.ply", "out/object_1_mine.ply", "out/notes.txt"})
     write (name, "");
-  ToolRun second ({"--resolution", "20", "scene.pcd", "out"}, folder_.string ());
-  ASSERT_EQ (second.wait (), 0) << second.errors ();
+  ASSERT_EQ (run ({"--resolution", "20", "scene.pcd", "out"}), 0) << errors_;
   EXPECT_EQ (files ("out"), (std::set<std::string>{"background.ply", "notes.txt", "object_1.ply", "object_1_mine.ply",
                                                    "object_2.ply", "summary.json"}));
 }
@@ -184,15 +140,12 @@ TEST_F (PclCosection, WhatAnEarlierRunLeftIsRemoved)
 TEST_F (PclCosection, AProposalMayBeFarFromItsOrigin)
 {
   writeTableScene (path ("scene.pcd"));
-  ToolRun first ({"--resolution", "20", "scene.pcd", "out"}, folder_.string ());
-  ASSERT_EQ (first.wait (), 0) << first.errors ();
+  ASSERT_EQ (run ({"--resolution", "20", "scene.pcd", "out"}), 0) << errors_;
   const TriangleMesh ball = loadPlyMesh (path ("out/object_1.ply"));
   const Eigen::Vector3d far (1000.0, -2000.0, 30.0);
   saveMesh (ball, path ("far.ply"), far);
-  ToolRun second ({"--resolution", "20", "--proposal", "1=far.ply", "scene.pcd", "again"}, folder_.string ());
-  ASSERT_EQ (second.wait (), 0) << second.errors ();
-  const nlohmann::json rows = nlohmann::json::parse (
-      read ("again/summary.json"))["objects"][0]["proposal"]["T_object_proposal"];
+  ASSERT_EQ (run ({"--resolution", "20", "--proposal", "1=far.ply", "scene.pcd", "again"}), 0) << errors_;
+  const nlohmann::json rows = json ("again/summary.json")["objects"][0]["proposal"]["T_object_proposal"];
   const Eigen::Vector3d in_file = ball.vertices[0].cast<double> () + far;
   Eigen::Vector3d moved;
   for (int row = 0; row < 3; ++row)
@@ -202,25 +155,22 @@ TEST_F (PclCosection, AProposalMayBeFarFromItsOrigin)
   for (const Eigen::Vector3f& vertex : ball.vertices)
     box.extend (vertex);
   EXPECT_LT (box.exteriorDistance (moved.cast<float> ().eval ()), 0.01f) << moved;
-  ToolRun without ({"--priors", "none", "--proposal", "1=far.ply", "scene.pcd", "none"}, folder_.string ());
-  EXPECT_EQ (without.wait (), 2);
-  EXPECT_NE (without.errors ().find ("--proposal has no effect"), std::string::npos) << without.errors ();
+  EXPECT_EQ (run ({"--priors", "none", "--proposal", "1=far.ply", "scene.pcd", "none"}), 2);
+  EXPECT_NE (errors_.find ("--proposal has no effect"), std::string::npos) << errors_;
 }
 
 TEST_F (PclCosection, BallHasItsVolume)
 {
   writeTableScene (path ("scene.pcd"));
-  ToolRun run ({"--resolution", "32", "scene.pcd", "out"}, folder_.string ());
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
+  ASSERT_EQ (run ({"--resolution", "32", "scene.pcd", "out"}), 0) << errors_;
   EXPECT_NEAR (computeMassProperties (loadPlyMesh (path ("out/object_1.ply"))).volume_m3, 0.0009, 0.0002);
 }
 
 TEST_F (PclCosection, SingleFileHoldsAllObjects)
 {
   writeTableScene (path ("scene.pcd"));
-  ToolRun run ({"--resolution", "24", "--quiet", "scene.pcd", "out.ply"}, folder_.string ());
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_EQ (run.output () + run.errors (), "");
+  ASSERT_EQ (run ({"--resolution", "24", "--quiet", "scene.pcd", "out.ply"}), 0) << errors_;
+  EXPECT_EQ (output_ + errors_, "");
   EXPECT_EQ (computeTopology (loadPlyMesh (path ("out.ply"))).components, 2);
 }
 
@@ -229,9 +179,8 @@ TEST_F (PclCosection, FilesDoNotDependOnTheThreads)
   writeTableScene (path ("scene.pcd"));
   for (const char* threads : {"1", "4"})
   {
-    ToolRun run ({"--resolution", "24", "--threads", threads, "scene.pcd", std::string (threads) + ".ply"},
-                 folder_.string ());
-    ASSERT_EQ (run.wait (), 0) << run.errors ();
+    ASSERT_EQ (run ({"--resolution", "24", "--threads", threads, "scene.pcd", std::string (threads) + ".ply"}), 0)
+        << errors_;
   }
   EXPECT_EQ (read ("1.ply"), read ("4.ply"));
 }
@@ -241,8 +190,7 @@ TEST_F (PclCosection, UnorganizedCloudWithNormals)
   writeSphere (path ("sphere.pcd"), 5000);
   for (const char* name : {"sphere.ply", "sphere.stl", "sphere.obj"})
   {
-    ToolRun run ({"--voxel-size", "0.008", "sphere.pcd", name}, folder_.string ());
-    ASSERT_EQ (run.wait (), 0) << run.errors ();
+    ASSERT_EQ (run ({"--voxel-size", "0.008", "sphere.pcd", name}), 0) << errors_;
     EXPECT_TRUE (fs::exists (path (name)));
   }
   const TriangleMesh mesh = loadPlyMesh (path ("sphere.ply"));
@@ -289,11 +237,10 @@ TEST_F (PclCosection, LabelWithoutEnoughPointsIsSkipped)
   for (int i = 0; i < 50; ++i)
     lines += std::to_string (0.001 * (i % 7)) + " " + std::to_string (0.001 * (i / 7)) + " 0.3 9\n";
   write ("few.pcd", asciiCloud (50, lines, true));
-  ToolRun run ({"--resolution", "20", "--json", "s.json", "scene.pcd", "few.pcd", "out"}, folder_.string ());
-  EXPECT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_NE (run.errors ().find ("label 9 is skipped: it has 50 valid points"), std::string::npos) << run.errors ();
+  EXPECT_EQ (run ({"--resolution", "20", "--json", "s.json", "scene.pcd", "few.pcd", "out"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("label 9 is skipped: it has 50 valid points"), std::string::npos) << errors_;
   EXPECT_EQ (files ("out").count ("object_9.ply"), 0u);
-  const nlohmann::json summary = nlohmann::json::parse (read ("s.json"));
+  const nlohmann::json summary = json ("s.json");
   ASSERT_FALSE (summary["warnings"].empty ());
   EXPECT_NE (summary["warnings"].dump ().find ("label 9"), std::string::npos);
 }
@@ -302,7 +249,7 @@ TEST_F (PclCosection, SummaryOfARunThatFails)
 {
   write ("broken.pcd", "no cloud");
   expectFailure ({"--json", "s.json", "broken.pcd", "out"}, 1, "broken.pcd: is neither a PCD nor a PLY file");
-  const nlohmann::json summary = nlohmann::json::parse (read ("s.json"));
+  const nlohmann::json summary = json ("s.json");
   EXPECT_EQ (summary["error"].get<std::string> ().rfind ("broken.pcd: is neither a PCD nor a PLY file", 0), 0u);
   EXPECT_TRUE (summary["objects"].empty ());
   EXPECT_EQ (summary["parameters"]["constraints"], "all");
@@ -314,13 +261,12 @@ TEST_F (PclCosection, CoplanarPointsDoNotCrash)
   for (int i = 0; i < 900; ++i)
     lines += std::to_string (0.01 * (i % 30)) + " " + std::to_string (0.01 * (i / 30)) + " 1\n";
   write ("flat.pcd", asciiCloud (900, lines));
-  ToolRun run ({"--resolution", "24", "flat.pcd", "out.ply"}, folder_.string ());
-  const int status = run.wait ();
-  EXPECT_TRUE (status == 0 || status == 1) << status << run.errors ();
+  const int status = run ({"--resolution", "24", "flat.pcd", "out.ply"});
+  EXPECT_TRUE (status == 0 || status == 1) << status << errors_;
   if (status == 0)
     EXPECT_TRUE (computeTopology (loadPlyMesh (path ("out.ply"))).closed_manifold);
   else
-    EXPECT_NE (run.errors ().find ("pcl_cosection: error: "), std::string::npos);
+    EXPECT_NE (errors_.find ("pcl_cosection: error: "), std::string::npos);
   EXPECT_EQ (fs::exists (path ("out.ply")), status == 0);
 }
 
@@ -361,15 +307,16 @@ TEST_F (PclCosection, InterruptedSolveLeavesNothing)
   for (const int signal : {SIGINT, SIGTERM})
   {
     // A solver that never meets its tolerance.
-    ToolRun run ({"--verbose", "--resolution", "96", "--solver", "fast-jacobi", "--max-iterations", "10000000",
-                  "--tolerance", "1e-30", "sphere.pcd", "out"},
-                 folder_.string ());
-    ASSERT_TRUE (run.waitForError ("object 1")) << run.errors ();
+    ToolRun interrupted ({"--verbose", "--resolution", "96", "--solver", "fast-jacobi", "--max-iterations", "10000000",
+                          "--tolerance", "1e-30", "sphere.pcd", "out"},
+                         path (""));
+    ASSERT_TRUE (interrupted.waitForError ("object 1")) << interrupted.errors ();
     std::this_thread::sleep_for (std::chrono::seconds (1)); // the constraints are set up, the solver is at work
-    run.send (signal);
-    EXPECT_EQ (run.wait (), 130);
-    EXPECT_NE (run.errors ().find ("pcl_cosection: error: interrupted, nothing was written\n"), std::string::npos)
-        << run.errors ();
+    interrupted.send (signal);
+    EXPECT_EQ (interrupted.wait (), 130);
+    EXPECT_NE (interrupted.errors ().find ("pcl_cosection: error: interrupted, nothing was written\n"),
+               std::string::npos)
+        << interrupted.errors ();
     EXPECT_FALSE (fs::exists (path ("out")));
   }
 }

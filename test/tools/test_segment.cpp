@@ -2,7 +2,6 @@
 
 // pcl_cosection_segment as a user calls it.
 
-#include "common/temporary_folder.h"
 #include "tool_run.h"
 
 #include <pcl/io/pcd_io.h>
@@ -14,7 +13,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace fs = std::filesystem;
@@ -24,13 +22,13 @@ namespace {
 
 constexpr int width = 160, height = 120;
 
-class Segment : public testing::Test
+class Segment : public ToolTest
 {
 protected:
   using Cloud = pcl::PointCloud<pcl::PointXYZRGBL>;
 
   /** \brief Seen from above, 0.8 m away: a table, and a block of 10 x 10 x 6 cm on it. */
-  Segment ()
+  Segment () : ToolTest (PCL_COSECTION_SEGMENT)
   {
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u)
@@ -49,33 +47,20 @@ protected:
     save (cloud_);
   }
 
-  void save (const Cloud& cloud) const { pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), cloud); }
-
-  std::string failure (const std::vector<std::string>& arguments, int status) const
-  {
-    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
-    EXPECT_EQ (run.wait (), status);
-    const std::string errors = run.errors ();
-    EXPECT_EQ (errors.rfind ("pcl_cosection_segment: error: ", 0), 0u) << errors;
-    EXPECT_EQ (errors.find ('\n'), errors.size () - 1) << errors;
-    EXPECT_FALSE (fs::exists (folder_.file ("out.pcd")));
-    return errors;
-  }
+  void save (const Cloud& cloud) const { pcl::io::savePCDFileBinary (path ("in.pcd"), cloud); }
 
   Cloud cloud_{width, height};
-  const test::TemporaryFolder folder_;
 };
 
 } // namespace
 
 TEST_F (Segment, LabelsAndKeepsTheRest)
 {
-  ToolRun run ({"in.pcd", "out.pcd", "--json", "s.json"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_EQ (run.errors (), "");
-  EXPECT_EQ (run.output (), "wrote out.pcd: 1 object on 1 plane\n");
+  ASSERT_EQ (run ({"in.pcd", "out.pcd", "--json", "s.json"}), 0) << errors_;
+  EXPECT_EQ (errors_, "");
+  EXPECT_EQ (output_, "wrote out.pcd: 1 object on 1 plane\n");
   Cloud out;
-  ASSERT_EQ (pcl::io::loadPCDFile (folder_.file ("out.pcd"), out), 0);
+  ASSERT_EQ (pcl::io::loadPCDFile (path ("out.pcd"), out), 0);
   ASSERT_EQ (out.width, cloud_.width);
   ASSERT_EQ (out.height, cloud_.height);
   EXPECT_EQ (out.sensor_origin_.head<3> (), cloud_.sensor_origin_.head<3> ());
@@ -89,8 +74,7 @@ TEST_F (Segment, LabelsAndKeepsTheRest)
     points += out[i].label == 1;
   }
   EXPECT_EQ (wrong, 0u);
-  std::ifstream file (folder_.file ("s.json"));
-  const nlohmann::json summary = nlohmann::json::parse (file);
+  const nlohmann::json summary = json ("s.json");
   ASSERT_EQ (summary["objects"].size (), 1u);
   EXPECT_EQ (summary["objects"][0]["label"], 1);
   EXPECT_EQ (summary["objects"][0]["points"], points);
@@ -100,27 +84,22 @@ TEST_F (Segment, LabelsAndKeepsTheRest)
 
 TEST_F (Segment, LeavesOutARegion)
 {
-  ToolRun run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}, folder_.file (""), {},
-               PCL_COSECTION_SEGMENT); // that the block is in
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_EQ (run.output (), "wrote out.pcd: 0 objects on 1 plane\n");
+  ASSERT_EQ (run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}), 0) << errors_; // that the block is in
+  EXPECT_EQ (output_, "wrote out.pcd: 0 objects on 1 plane\n");
   Cloud out;
-  ASSERT_EQ (pcl::io::loadPCDFile (folder_.file ("out.pcd"), out), 0);
+  ASSERT_EQ (pcl::io::loadPCDFile (path ("out.pcd"), out), 0);
   EXPECT_EQ (out (width / 2, height / 2).label, 65535u);
   EXPECT_EQ (out (3, 3).label, 0u);
 }
 
 TEST_F (Segment, NoObjectIsAFailureThatSaysWhatMayHelp)
 {
-  ToolRun run ({"in.pcd", "out.pcd", "--json", "s.json", "--min-object-size", "0.3"}, folder_.file (""), {},
-               PCL_COSECTION_SEGMENT);
-  EXPECT_EQ (run.wait (), 1);
-  EXPECT_EQ (run.output (), "wrote out.pcd: 0 objects on 1 plane\n");
-  EXPECT_EQ (run.errors (), "pcl_cosection_segment: error: in.pcd: no object was found; objects are 0.3 to 0.5 m long "
-                            "(--min-object-size, --max-object-size), and stand on the 1 plane that it shows; is "
-                            "the unit the metre (else --scale 0.001)?\n");
-  std::ifstream file (folder_.file ("s.json"));
-  EXPECT_TRUE (nlohmann::json::parse (file)["objects"].empty ());
+  EXPECT_EQ (run ({"in.pcd", "out.pcd", "--json", "s.json", "--min-object-size", "0.3"}), 1);
+  EXPECT_EQ (output_, "wrote out.pcd: 0 objects on 1 plane\n");
+  EXPECT_EQ (errors_, "pcl_cosection_segment: error: in.pcd: no object was found; objects are 0.3 to 0.5 m long "
+                      "(--min-object-size, --max-object-size), and stand on the 1 plane that it shows; is "
+                      "the unit the metre (else --scale 0.001)?\n");
+  EXPECT_TRUE (json ("s.json")["objects"].empty ());
 }
 
 TEST_F (Segment, AddsTheFieldInMillimetres)
@@ -129,12 +108,11 @@ TEST_F (Segment, AddsTheFieldInMillimetres)
   pcl::copyPointCloud (cloud_, cloud);
   for (pcl::PointXYZ& p : cloud)
     p.getVector3fMap () *= 1000.0f;
-  pcl::io::savePCDFileASCII (folder_.file ("in.pcd"), cloud);
-  ToolRun run ({"in.pcd", "out.pcd", "--scale", "0.001", "--quiet"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_EQ (run.output (), "");
+  pcl::io::savePCDFileASCII (path ("in.pcd"), cloud);
+  ASSERT_EQ (run ({"in.pcd", "out.pcd", "--scale", "0.001", "--quiet"}), 0) << errors_;
+  EXPECT_EQ (output_, "");
   pcl::PointCloud<pcl::PointXYZL> out;
-  ASSERT_EQ (pcl::io::loadPCDFile (folder_.file ("out.pcd"), out), 0);
+  ASSERT_EQ (pcl::io::loadPCDFile (path ("out.pcd"), out), 0);
   EXPECT_EQ (out (width / 2, height / 2).label, 1u);
   EXPECT_NEAR (out (width / 2, height / 2).z, 740.0f, 0.1f);
   EXPECT_EQ (out (3, 3).label, 0u);
@@ -142,11 +120,9 @@ TEST_F (Segment, AddsTheFieldInMillimetres)
 
 TEST_F (Segment, PclCosectionTakesIt)
 {
-  ToolRun run ({"in.pcd", "out.pcd"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
-  ASSERT_EQ (run.wait (), 0) << run.errors ();
-  ToolRun completion ({"out.pcd", "meshes", "--resolution", "24"}, folder_.file (""));
-  EXPECT_EQ (completion.wait (), 0) << completion.errors ();
-  EXPECT_TRUE (fs::exists (folder_.file ("meshes/object_1.ply")));
+  ASSERT_EQ (run ({"in.pcd", "out.pcd"}), 0) << errors_;
+  EXPECT_EQ (run ({"out.pcd", "meshes", "--resolution", "24"}, {}, PCL_COSECTION_TOOL), 0) << errors_;
+  EXPECT_TRUE (fs::exists (path ("meshes/object_1.ply")));
 }
 
 TEST_F (Segment, WrongUsageIsOneLine)

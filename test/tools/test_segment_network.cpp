@@ -2,7 +2,6 @@
 
 // pcl_cosection_segment with a network, and with parts of the image left out.
 
-#include "common/temporary_folder.h"
 #include "segmentation/onnx_messages.h"
 #include "segmentation/spot_network.h"
 #include "tool_run.h"
@@ -17,7 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace fs = std::filesystem;
@@ -26,13 +24,13 @@ using test::SpotNetwork;
 
 namespace {
 
-class SegmentNetwork : public testing::Test
+class SegmentNetwork : public ToolTest
 {
 protected:
   using Cloud = pcl::PointCloud<pcl::PointXYZRGBL>;
 
   /** \brief A red spot of 6 x 4 pixels from (8, 6) on, and a network that finds such. */
-  SegmentNetwork ()
+  SegmentNetwork () : ToolTest (PCL_COSECTION_SEGMENT)
   {
     write ("spot.onnx",
            affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{NetworkOutputForm::Prototypes}.outputs ()));
@@ -46,12 +44,7 @@ protected:
         p.r = picture.at (u, v)[0];
         p.label = 65535; // is not looked at
       }
-    pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), cloud_);
-  }
-
-  void write (const std::string& name, const std::string& bytes) const
-  {
-    std::ofstream (folder_.file (name), std::ios::binary) << bytes;
+    pcl::io::savePCDFileBinary (path ("in.pcd"), cloud_);
   }
 
   static std::vector<std::string> arguments (const std::vector<std::string>& more = {})
@@ -63,32 +56,19 @@ protected:
   }
 
   /** \brief How often each label is in what comes out. */
-  std::map<std::uint32_t, std::size_t> labels (const std::vector<std::string>& words) const
+  std::map<std::uint32_t, std::size_t> labels (const std::vector<std::string>& words)
   {
-    ToolRun run (words, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
-    EXPECT_EQ (run.wait (), 0) << run.errors ();
-    EXPECT_EQ (run.errors (), "");
+    EXPECT_EQ (run (words), 0) << errors_;
+    EXPECT_EQ (errors_, "");
     Cloud out;
-    EXPECT_EQ (pcl::io::loadPCDFile (folder_.file ("out.pcd"), out), 0);
+    EXPECT_EQ (pcl::io::loadPCDFile (path ("out.pcd"), out), 0);
     std::map<std::uint32_t, std::size_t> counts;
     for (const auto& p : out)
       ++counts[p.label];
     return (counts);
   }
 
-  std::string failure (const std::vector<std::string>& words, int status) const
-  {
-    ToolRun run (words, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
-    EXPECT_EQ (run.wait (), status);
-    const std::string errors = run.errors ();
-    EXPECT_EQ (errors.rfind ("pcl_cosection_segment: error: ", 0), 0u) << errors;
-    EXPECT_EQ (errors.find ('\n'), errors.size () - 1) << errors;
-    EXPECT_FALSE (fs::exists (folder_.file ("out.pcd")));
-    return (errors);
-  }
-
   Cloud cloud_{SpotNetwork::width, SpotNetwork::height};
-  const test::TemporaryFolder folder_;
 };
 
 using Counts = std::map<std::uint32_t, std::size_t>;
@@ -100,8 +80,7 @@ TEST_F (SegmentNetwork, LabelsWhatTheNetworkFinds)
 {
   EXPECT_EQ (labels (arguments ({"--class-names", "names", "--classes", "cup", "--json", "s.json", "--quiet"})),
              (Counts{{0, rest}, {1, spot}}));
-  std::ifstream file (folder_.file ("s.json"));
-  const nlohmann::json summary = nlohmann::json::parse (file);
+  const nlohmann::json summary = json ("s.json");
   ASSERT_EQ (summary["objects"].size (), 1u);
   EXPECT_EQ (summary["objects"][0]["label"], 1);
   EXPECT_EQ (summary["objects"][0]["points"], spot);
@@ -128,7 +107,7 @@ TEST_F (SegmentNetwork, PartsOfTheImageAreLeftOut)
   Image<std::uint16_t> mask (SpotNetwork::width, SpotNetwork::height, 0);
   mask.at (9, 7) = 300;
   mask.at (0, 15) = 1;
-  saveMaskImage (mask, folder_.file ("mask.png"), true);
+  saveMaskImage (mask, path ("mask.png"), true);
   EXPECT_EQ (
       labels (arguments ({"--ignore-mask", "mask.png", "--ignore-region", "1,1,1,1", "--ignore-region", "2,1,1,1"})),
       (Counts{{0, rest - 3}, {1, spot - 1}, {65535, 4}}));
@@ -139,11 +118,10 @@ TEST_F (SegmentNetwork, IgnoredPointsAreNotCompleted)
   for (auto& p : cloud_)
     p.r = 0;
   cloud_ (0, 0).r = 1; // not all black; nothing is found
-  pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), cloud_);
+  pcl::io::savePCDFileBinary (path ("in.pcd"), cloud_);
   labels (arguments ({"--ignore-region", "0,0,24,16"}));
-  ToolRun completion ({"out.pcd", "meshes"}, folder_.file (""));
-  EXPECT_EQ (completion.wait (), 1); // nothing is left
-  EXPECT_FALSE (fs::exists (folder_.file ("meshes/object_65535.ply")));
+  EXPECT_EQ (run ({"out.pcd", "meshes"}, {}, PCL_COSECTION_TOOL), 1); // nothing is left
+  EXPECT_FALSE (fs::exists (path ("meshes/object_65535.ply")));
 }
 
 TEST_F (SegmentNetwork, WrongUsageIsOneLine)
@@ -191,7 +169,7 @@ TEST_F (SegmentNetwork, DamagedNetworksAreOneLine)
 
 TEST_F (SegmentNetwork, BadInputIsOneLine)
 {
-  const std::string model = test::readFile (folder_.file ("spot.onnx"));
+  const std::string model = test::readFile (path ("spot.onnx"));
   write ("cut.onnx", model.substr (0, model.size () / 2));
   write ("any_size.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height,
                                       SpotNetwork{NetworkOutputForm::Prototypes}.outputs (), false));
@@ -205,21 +183,21 @@ TEST_F (SegmentNetwork, BadInputIsOneLine)
   write ("two", "cup\nbottle\n");
   EXPECT_NE (failure (arguments ({"--class-names", "two"}), 1).find ("3 classes"), std::string::npos);
   EXPECT_NE (failure (arguments ({"--ignore-mask", "absent.png"}), 1).find ("absent.png"), std::string::npos);
-  saveMaskImage (Image<std::uint16_t> (3, 3, 1), folder_.file ("small.png"));
+  saveMaskImage (Image<std::uint16_t> (3, 3, 1), path ("small.png"));
   EXPECT_NE (failure (arguments ({"--ignore-mask", "small.png"}), 1).find ("3 x 3"), std::string::npos);
 
   pcl::PointCloud<pcl::PointXYZ> colourless;
   pcl::copyPointCloud (cloud_, colourless);
-  pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), colourless);
+  pcl::io::savePCDFileBinary (path ("in.pcd"), colourless);
   EXPECT_NE (failure (arguments (), 1).find ("in.pcd: has no colours"), std::string::npos);
   Cloud changed = cloud_;
   for (auto& p : changed)
     p.r = 0;
-  pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), changed);
+  pcl::io::savePCDFileBinary (path ("in.pcd"), changed);
   EXPECT_NE (failure (arguments (), 1).find ("in.pcd: all of it is black"), std::string::npos);
   changed = cloud_;
   changed.width *= changed.height;
   changed.height = 1;
-  pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), changed);
+  pcl::io::savePCDFileBinary (path ("in.pcd"), changed);
   EXPECT_NE (failure (arguments (), 1).find ("in.pcd: is not organised"), std::string::npos);
 }

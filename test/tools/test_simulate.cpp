@@ -2,7 +2,7 @@
 
 // pcl_cosection_simulate as a user calls it.
 
-#include "common/temporary_folder.h"
+#include "common/replaced.h"
 #include "simulate_command_line.h"
 #include "tool_run.h"
 
@@ -19,7 +19,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -33,27 +32,15 @@ const char* const small = R"({
   "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, HEIGHT]}]}]
 })";
 
-class Simulate : public testing::Test
+class Simulate : public ToolTest
 {
 protected:
+  Simulate () : ToolTest (PCL_COSECTION_SIMULATE) {}
+
   void writeScene (const std::string& height = "0.1") const
   {
-    std::string text = small;
-    text.replace (text.find ("HEIGHT"), 6, height);
-    std::ofstream (folder_.file ("scene.json")) << text;
+    write ("scene.json", test::replaced (small, "HEIGHT", height));
   }
-
-  std::string failure (const std::vector<std::string>& arguments, int status) const
-  {
-    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-    EXPECT_EQ (run.wait (), status);
-    const std::string errors = run.errors ();
-    EXPECT_EQ (errors.rfind ("pcl_cosection_simulate: error: ", 0), 0u) << errors;
-    EXPECT_EQ (errors.find ('\n'), errors.size () - 1) << errors;
-    return errors;
-  }
-
-  const test::TemporaryFolder folder_;
 };
 
 } // namespace
@@ -61,15 +48,12 @@ protected:
 TEST_F (Simulate, WritesASceneAndASummary)
 {
   writeScene ();
-  ToolRun run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}, folder_.file (""), {},
-               PCL_COSECTION_SIMULATE);
-  EXPECT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_EQ (run.errors (), "");
-  EXPECT_EQ (run.output ().rfind ("wrote out: 4 frames of 64 x 48, 1 object, ", 0), 0u) << run.output ();
-  EXPECT_TRUE (fs::exists (folder_.file ("out/views/View0001.pcd")));
-  EXPECT_TRUE (fs::exists (folder_.file ("out/scene.json")));
-  std::ifstream file (folder_.file ("s.json"));
-  const nlohmann::json summary = nlohmann::json::parse (file);
+  EXPECT_EQ (run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}), 0) << errors_;
+  EXPECT_EQ (errors_, "");
+  EXPECT_EQ (output_.rfind ("wrote out: 4 frames of 64 x 48, 1 object, ", 0), 0u) << output_;
+  EXPECT_TRUE (fs::exists (path ("out/views/View0001.pcd")));
+  EXPECT_TRUE (fs::exists (path ("out/scene.json")));
+  const nlohmann::json summary = json ("s.json");
   EXPECT_EQ (summary["frames"], 4);
   EXPECT_EQ (summary["objects"][0]["name"], "ball");
   EXPECT_TRUE (summary["warnings"].empty ());
@@ -79,31 +63,21 @@ TEST_F (Simulate, WritesASceneAndASummary)
 TEST_F (Simulate, SaysWhatPenetrates)
 {
   writeScene ("0.08");
-  ToolRun run ({"scene.json", "out"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-  EXPECT_EQ (run.wait (), 0);
-  EXPECT_EQ (run.errors (),
-             "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 frames)\n");
+  EXPECT_EQ (run ({"scene.json", "out"}), 0);
+  EXPECT_EQ (errors_, "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 frames)\n");
 }
 
 TEST_F (Simulate, PresetsAreListedPrintedAndRendered)
 {
-  ToolRun list ({"--list-presets"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-  EXPECT_EQ (list.wait (), 0);
+  EXPECT_EQ (run ({"--list-presets"}), 0);
   for (const char* name : {"table", "toys", "stack"})
-    EXPECT_NE (list.output ().find (std::string (name) + " "), std::string::npos);
-  ToolRun print ({"--print-preset", "stack"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-  EXPECT_EQ (print.wait (), 0);
-  std::ofstream (folder_.file ("mine.json")) << print.output ();
-  ToolRun mine ({"--frames", "50:51", "mine.json", "mine"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-  EXPECT_EQ (mine.wait (), 0) << mine.errors ();
-  ToolRun preset ({"--frames", "50:51", "--preset", "stack", "preset"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-  EXPECT_EQ (preset.wait (), 0) << preset.errors ();
-  const auto bytes = [&] (const std::string& name) {
-    std::ifstream in (folder_.file (name), std::ios::binary);
-    return std::string (std::istreambuf_iterator<char> (in), {});
-  };
-  EXPECT_EQ (bytes ("mine/depth_noise/Depth0050.png"), bytes ("preset/depth_noise/Depth0050.png"));
-  EXPECT_GT (bytes ("mine/depth_noise/Depth0050.png").size (), 10000u);
+    EXPECT_NE (output_.find (std::string (name) + " "), std::string::npos);
+  EXPECT_EQ (run ({"--print-preset", "stack"}), 0);
+  write ("mine.json", output_);
+  EXPECT_EQ (run ({"--frames", "50:51", "mine.json", "mine"}), 0) << errors_;
+  EXPECT_EQ (run ({"--frames", "50:51", "--preset", "stack", "preset"}), 0) << errors_;
+  EXPECT_EQ (read ("mine/depth_noise/Depth0050.png"), read ("preset/depth_noise/Depth0050.png"));
+  EXPECT_GT (read ("mine/depth_noise/Depth0050.png").size (), 10000u);
 }
 
 TEST_F (Simulate, WrongUsageIsOneLine)
@@ -120,17 +94,16 @@ TEST_F (Simulate, WrongUsageIsOneLine)
   for (const char* frames : {"3", "a:b", "3:2", "-1:2", "1:2:3", "1.5:2"})
     EXPECT_NE (failure ({"--frames", frames, "scene.json", "out"}, 2).find ("--frames"), std::string::npos) << frames;
   EXPECT_NE (failure ({"--seed", "-1", "scene.json", "out"}, 2).find ("--seed"), std::string::npos);
-  EXPECT_FALSE (fs::exists (folder_.file ("out")));
+  EXPECT_FALSE (fs::exists (path ("out")));
 }
 
 TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
 {
   writeScene ();
   EXPECT_NE (failure ({"nowhere.json", "out"}, 1).find ("nowhere.json"), std::string::npos);
-  std::ofstream (folder_.file ("bad.json")) << "{\"frames\": }";
+  write ("bad.json", "{\"frames\": }");
   EXPECT_NE (failure ({"bad.json", "out"}, 1).find ("bad.json: is not well-formed JSON"), std::string::npos);
-  std::ofstream (folder_.file ("unknown.json"))
-      << "{\"camera\": {\"keys\": [{\"position\": [0,0,0]}]}, \"objects\": [], \"fps\": 3}";
+  write ("unknown.json", "{\"camera\": {\"keys\": [{\"position\": [0,0,0]}]}, \"objects\": [], \"fps\": 3}");
   EXPECT_NE (failure ({"unknown.json", "out"}, 1).find ("unknown.json: has the unknown field \"fps\""),
              std::string::npos);
   EXPECT_NE (failure ({"--frames", "2:9", "scene.json", "out"}, 1).find ("frames 2:9 are not there; the scene has 0:4"),
@@ -139,9 +112,9 @@ TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
              std::string::npos);
   EXPECT_NE (failure ({"scene.json", "out", "--json", "no/s.json"}, 1).find ("no/s.json"), std::string::npos);
   EXPECT_NE (failure ({"scene.json", "."}, 1).find ("give the name of a new folder"), std::string::npos);
-  EXPECT_FALSE (fs::exists (folder_.file ("out")));
-  fs::create_directory (folder_.file ("full"));
-  std::ofstream (folder_.file ("full/mine.txt")) << "mine";
+  EXPECT_FALSE (fs::exists (path ("out")));
+  fs::create_directory (path ("full"));
+  write ("full/mine.txt", "mine");
   EXPECT_NE (failure ({"scene.json", "full"}, 1).find ("full: is there already"), std::string::npos);
   EXPECT_NE (failure ({"scene.json", "scene.json"}, 1).find ("scene.json: is there already"), std::string::npos);
   EXPECT_EQ (folder_.entries (), 6u); // three descriptions, a folder, and what the last run printed
@@ -149,20 +122,18 @@ TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
 
 TEST_F (Simulate, PutsMeshesOnATable)
 {
-  fs::create_directory (folder_.file ("things"));
-  saveMesh (makeBox ({0.1, 0.06, 0.2})->tessellate (0.001), folder_.file ("things/carton.ply"));
-  saveMesh (makeSphere (0.04)->tessellate (0.001), folder_.file ("things/ball.ply"));
-  std::ofstream (folder_.file ("things/notes.txt")) << "no mesh";
+  fs::create_directory (path ("things"));
+  saveMesh (makeBox ({0.1, 0.06, 0.2})->tessellate (0.001), path ("things/carton.ply"));
+  saveMesh (makeSphere (0.04)->tessellate (0.001), path ("things/ball.ply"));
+  write ("things/notes.txt", "no mesh");
   const auto simulate = [&] (std::vector<std::string> arguments) {
     arguments.insert (arguments.begin (), {"--meshes", "things", "--per-scene", "2", "--views", "2"});
-    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-    EXPECT_EQ (run.wait (), 0) << run.errors ();
-    return run.output ();
+    EXPECT_EQ (run (arguments), 0) << errors_;
+    return output_;
   };
   EXPECT_EQ (simulate ({"--json", "s.json", "out"}), "wrote out: 1 scene of 2 objects in 2 views\n");
-  std::ifstream summary_file (folder_.file ("s.json"));
-  const nlohmann::json summary = nlohmann::json::parse (summary_file);
-  std::ifstream list (folder_.file ("out/000/names.txt"));
+  const nlohmann::json summary = json ("s.json");
+  std::ifstream list (path ("out/000/names.txt"));
   std::string number, name;
   list >> number >> name;
   EXPECT_TRUE (name == "ball" || name == "carton") << name;
@@ -171,13 +142,13 @@ TEST_F (Simulate, PutsMeshesOnATable)
   std::size_t unseen = 0;
   for (const std::uint32_t label : {1u, 2u})
   {
-    const SurfaceDistance surface (loadMesh (folder_.file ("out/000/truth_" + std::to_string (label) + ".ply")));
+    const SurfaceDistance surface (loadMesh (path ("out/000/truth_" + std::to_string (label) + ".ply")));
     std::vector<Eigen::Vector3d> points;
     bool is_in_all = true;
     for (const char* view : {"out/000/view0.pcd", "out/000/view1.pcd"})
     {
       pcl::PointCloud<pcl::PointXYZRGBL> cloud;
-      ASSERT_EQ (pcl::io::loadPCDFile (folder_.file (view), cloud), 0);
+      ASSERT_EQ (pcl::io::loadPCDFile (path (view), cloud), 0);
       Eigen::Isometry3f pose (cloud.sensor_orientation_);
       pose.translation () = cloud.sensor_origin_.head<3> ();
       const std::size_t before = points.size ();
@@ -196,17 +167,13 @@ TEST_F (Simulate, PutsMeshesOnATable)
   // The same seed gives the same bytes; labels may be wrong on purpose.
   simulate ({"again"});
   simulate ({"--mask-shift", "5", "shifted"});
-  const auto bytes = [&] (const std::string& file) {
-    std::ifstream in (folder_.file (file), std::ios::binary);
-    return std::string (std::istreambuf_iterator<char> (in), {});
-  };
-  EXPECT_EQ (bytes ("out/000/view1.pcd"), bytes ("again/000/view1.pcd"));
-  EXPECT_NE (bytes ("out/000/view1.pcd"), bytes ("shifted/000/view1.pcd"));
+  EXPECT_EQ (read ("out/000/view1.pcd"), read ("again/000/view1.pcd"));
+  EXPECT_NE (read ("out/000/view1.pcd"), read ("shifted/000/view1.pcd"));
 
   EXPECT_NE (failure ({"--meshes", "things", "--per-scene", "100", "full"}, 1).find ("no room for 100 things"),
              std::string::npos);
-  EXPECT_FALSE (fs::exists (folder_.file ("full")));
-  fs::create_directory (folder_.file ("empty"));
+  EXPECT_FALSE (fs::exists (path ("full")));
+  fs::create_directory (path ("empty"));
   EXPECT_NE (failure ({"--meshes", "empty", "x"}, 1).find ("empty: holds no meshes"), std::string::npos);
   EXPECT_NE (failure ({"--meshes", "things", "--preset", "table", "x"}, 2).find ("--meshes excludes"),
              std::string::npos);
@@ -217,22 +184,21 @@ TEST_F (Simulate, PutsMeshesOnATable)
 
 TEST_F (Simulate, MeshesMustBeInMetres)
 {
-  fs::create_directory (folder_.file ("things"));
-  saveMesh (makeBox ({10.0, 6.0, 20.0})->tessellate (0.1), folder_.file ("things/carton.ply")); // centimetres
+  fs::create_directory (path ("things"));
+  saveMesh (makeBox ({10.0, 6.0, 20.0})->tessellate (0.1), path ("things/carton.ply")); // centimetres
   EXPECT_NE (failure ({"--meshes", "things", "x"}, 1).find ("carton.ply: is 20 m long; the table has 1.4 m"),
              std::string::npos);
 }
 
 TEST_F (Simulate, OccludersHideThings)
 {
-  fs::create_directory (folder_.file ("things"));
-  saveMesh (makeBox ({0.1, 0.06, 0.2})->tessellate (0.001), folder_.file ("things/carton.ply"));
+  fs::create_directory (path ("things"));
+  saveMesh (makeBox ({0.1, 0.06, 0.2})->tessellate (0.001), path ("things/carton.ply"));
   const auto readings = [&] (const char* occluders, const char* output) {
-    ToolRun run ({"--meshes", "things", "--per-scene", "1", "--views", "1", "--occluders", occluders, output},
-                 folder_.file (""), {}, PCL_COSECTION_SIMULATE);
-    EXPECT_EQ (run.wait (), 0) << run.errors ();
+    EXPECT_EQ (run ({"--meshes", "things", "--per-scene", "1", "--views", "1", "--occluders", occluders, output}), 0)
+        << errors_;
     pcl::PointCloud<pcl::PointXYZRGBL> cloud;
-    EXPECT_EQ (pcl::io::loadPCDFile (folder_.file (output + std::string ("/000/view0.pcd")), cloud), 0);
+    EXPECT_EQ (pcl::io::loadPCDFile (path (output + std::string ("/000/view0.pcd")), cloud), 0);
     return std::count_if (cloud.begin (), cloud.end (), [] (const auto& p) { return p.label == 1; });
   };
   const auto all = readings ("0", "free");

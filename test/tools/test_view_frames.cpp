@@ -6,9 +6,16 @@
 
 #include "completion_frame.h"
 
+#include <pcl/common/transforms.h>
+#include <pcl/filters/filter.h>
+#include <pcl/filters/voxel_grid.h>
+
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <random>
+#include <set>
 #include <utility>
 
 using ViewFrames = AnyCloud;
@@ -218,4 +225,89 @@ TEST_F (ViewFrames, ObjectsThatMoveStayInTheirFrames)
     EXPECT_LT ((object.guessed_plane->head<3> () - some_turn * Eigen::Vector3d::UnitZ ()).norm (), 1e-12);
     EXPECT_EQ ((*object.guessed_plane)[3], -0.3);
   }
+}
+
+namespace {
+
+/** \brief The table scene with its points changed. */
+class ChangedTable : public AnyCloud
+{
+protected:
+  using Cloud = pcl::PointCloud<pcl::PointXYZRGBL>;
+
+  Cloud table () const
+  {
+    writeTableScene (path ("table.pcd"));
+    Cloud cloud;
+    pcl::io::loadPCDFile (path ("table.pcd"), cloud);
+    return cloud;
+  }
+
+  bool isSaid (const std::string& part) const { return errors_.find (part) != std::string::npos; }
+
+  /** \brief Without the readings of some labels. */
+  void saveWithout (const std::string& name, const std::set<std::uint32_t>& labels) const
+  {
+    Cloud cloud = table ();
+    for (auto& p : cloud)
+      if (labels.count (p.label) > 0)
+        p.getVector3fMap ().setConstant (std::numeric_limits<float>::quiet_NaN ());
+    pcl::io::savePCDFileBinary (path (name), cloud);
+  }
+};
+
+} // namespace
+
+TEST_F (ChangedTable, LabelsThatWereNumberedViewByViewAreSaid)
+{
+  const std::string warning = "what has label 1 has label 2 in a view before";
+  Cloud swapped = table ();
+  for (auto& p : swapped)
+    p.label = p.label == 0 ? 0 : 3 - p.label;
+  pcl::io::savePCDFileBinary (path ("swapped.pcd"), swapped);
+  ASSERT_EQ (run ({"table.pcd", "swapped.pcd", "out"}), 0) << errors_;
+  EXPECT_TRUE (isSaid (warning)) << errors_;
+  ASSERT_EQ (run ({"table.pcd", "table.pcd", "out"}), 0) << errors_;
+  EXPECT_FALSE (isSaid ("in a view before")) << errors_;
+}
+
+TEST_F (ChangedTable, NothingIsSaidOfWhatWasCutOut)
+{
+  saveWithout ("both.pcd", {0});
+  ASSERT_EQ (run ({"both.pcd", "out"}), 0) << errors_;
+  EXPECT_FALSE (isSaid ("extends farther") || isSaid ("of its outline")) << errors_;
+  saveWithout ("box.pcd", {0, 1});
+  pcl::PointCloud<pcl::PointXYZ> box;
+  pcl::io::loadPCDFile (path ("box.pcd"), box);
+  pcl::Indices kept;
+  pcl::removeNaNFromPointCloud (box, box, kept);
+  pcl::io::savePCDFileBinary (path ("points.pcd"), box);
+  ASSERT_EQ (run ({"points.pcd", "out"}), 0) << errors_;
+  EXPECT_FALSE (isSaid ("give --segment")) << errors_;
+}
+
+TEST_F (ChangedTable, PointsOfTheWorldInLargeCellsAreFound)
+{
+  Cloud world = table (), cells;
+  ASSERT_EQ (run ({"table.pcd", "out"}), 0) << errors_;
+  const Eigen::Affine3f T (Eigen::Translation3f (world.sensor_origin_.head<3> ()) * world.sensor_orientation_);
+  pcl::transformPointCloud (world, world, T);
+  for (std::uint32_t label = 0; label < 3; ++label)
+  {
+    Cloud one, thinned;
+    std::copy_if (world.begin (), world.end (), std::back_inserter (one),
+                  [&] (const auto& p) { return p.label == label && std::isfinite (p.z); });
+    pcl::VoxelGrid<pcl::PointXYZRGBL> filter;
+    filter.setInputCloud (one.makeShared ());
+    filter.setLeafSize (0.01f, 0.01f, 0.01f);
+    filter.filter (thinned);
+    cells += thinned;
+  }
+  cells.sensor_origin_ = world.sensor_origin_;
+  cells.sensor_orientation_ = world.sensor_orientation_;
+  pcl::io::savePCDFileBinary (path ("cells.pcd"), cells);
+  ASSERT_EQ (run ({"cells.pcd", "thin"}), 0) << errors_;
+  EXPECT_TRUE (isSaid ("taken as with --world-points")) << errors_;
+  for (const std::string mesh : {"/object_1.ply", "/object_2.ply"})
+    EXPECT_LT ((centroid ("thin" + mesh) - centroid ("out" + mesh)).norm (), 0.01) << mesh;
 }

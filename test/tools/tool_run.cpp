@@ -7,10 +7,12 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
+
+using pcl::cosection::test::readFile;
 
 namespace {
 
@@ -24,13 +26,6 @@ redirect (const char* name, int target)
   if (file < 0 || dup2 (file, target) < 0)
     _exit (126);
   close (file);
-}
-
-std::string
-readAll (const std::string& path)
-{
-  std::ifstream file (path, std::ios::binary);
-  return (std::string ((std::istreambuf_iterator<char> (file)), {}));
 }
 
 } // namespace
@@ -105,11 +100,55 @@ ToolRun::wait ()
 std::string
 ToolRun::output () const
 {
-  return (readAll (folder_ + "/" + output_name));
+  return (readFile (folder_ + "/" + output_name));
 }
 
 std::string
 ToolRun::errors () const
 {
-  return (readAll (folder_ + "/" + error_name));
+  return (readFile (folder_ + "/" + error_name));
+}
+
+void
+expectErrorLine (const std::string& said, const std::string& name, const std::string& part)
+{
+  EXPECT_EQ (said.rfind (name + ": error: ", 0), 0u) << said;
+  EXPECT_EQ (said.find ('\n'), said.size () - 1) << said;
+  EXPECT_NE (said.find (part), std::string::npos) << said;
+}
+
+void
+expectOneError (const std::string& said, const std::string& part)
+{
+  EXPECT_NE (said.find (part), std::string::npos) << said;
+  int error_lines = 0;
+  std::istringstream lines (said);
+  for (std::string line; std::getline (lines, line);)
+  {
+    EXPECT_EQ (line.rfind ("pcl_cosection: ", 0), 0u) << line;
+    error_lines += line.rfind ("pcl_cosection: error: ", 0) == 0;
+  }
+  EXPECT_EQ (error_lines, 1) << said;
+}
+
+ToolTest::ToolTest (const std::string& program) : program_ (program.empty () ? PCL_COSECTION_TOOL : program) {}
+
+int
+ToolTest::run (const std::vector<std::string>& arguments, const std::function<void ()>& prepare,
+               const std::string& program)
+{
+  ToolRun tool (arguments, path (""), prepare, program.empty () ? program_ : program);
+  const int status = tool.wait ();
+  output_ = tool.output ();
+  errors_ = tool.errors ();
+  return (status);
+}
+
+std::string
+ToolTest::failure (const std::vector<std::string>& arguments, int status)
+{
+  EXPECT_EQ (run (arguments), status);
+  expectErrorLine (errors_, std::filesystem::path (program_).filename ().string ());
+  EXPECT_FALSE (std::filesystem::exists (path ("out.pcd")));
+  return (errors_);
 }

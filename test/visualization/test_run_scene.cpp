@@ -2,6 +2,7 @@
 
 #include "run_folder.h"
 
+#include "common/message_of.h"
 #include "common/small_meshes.h"
 
 #include <pcl/cosection/common/error.h>

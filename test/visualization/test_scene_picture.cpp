@@ -2,6 +2,7 @@
 
 #include "run_folder.h"
 
+#include "common/message_of.h"
 #include "pcl_cosection/io/image_io.h"
 #include "pcl_cosection/visualization/scene_legend.h"
 #include <pcl/cosection/common/error.h>

@@ -2,6 +2,8 @@
 
 #include "run_folder.h"
 
+#include "common/message_of.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/visualization/scene_picture.h>
 

@@ -199,6 +199,19 @@ requirePaths (const std::vector<std::string>& paths, const std::string& first, c
     throw UsageError ("there is one argument too many: " + paths[2]);
 }
 
+/** \brief CLI11 takes the next argument for the value of "--name=", as an empty variable of a script leaves it. */
+static void
+refuseEmptyValues (const std::vector<std::string>& arguments)
+{
+  for (const std::string& argument : arguments)
+  {
+    if (argument == "--")
+      return;
+    if (argument.size () > 3 && argument.compare (0, 2, "--") == 0 && argument.find ('=') + 1 == argument.size ())
+      throw UsageError (argument.substr (0, argument.size () - 1) + " needs a value; it is empty");
+  }
+}
+
 bool
 parseArguments (CLI::App& app, const ProgramText& program, int argc, const char* const* argv)
 {
@@ -215,6 +228,7 @@ parseArguments (CLI::App& app, const ProgramText& program, int argc, const char*
   app.config_formatter (std::make_shared<ConfigurationFile> (names));
   const std::vector<std::string> arguments (argv + 1, argv + argc);
   refuseUnknownOptions (arguments, names, app);
+  refuseEmptyValues (arguments);
   requireReadable (configurationFile (arguments));
   try
   {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_input.h"
 
+#include "label_agreement.h"
 #include "object_poses.h"
 #include "scene_warnings.h"
 
@@ -282,6 +283,7 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
   const std::size_t files = settings.inputs.size () + settings.free_space.size ();
   const ObjectPoses poses = readers.poses (settings.object_trajectories, files);
   Labels labels;
+  LabelAgreement agreement;
   std::vector<std::size_t> inputs; // of each view, the file that it is of
   std::size_t begun = 0;
   const auto read = [&] (const std::string& path) {
@@ -303,6 +305,9 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
     LabelledView view = read (path);
     if (const auto warning = wholeScene (view))
       scene.warnings.push_back (path + ": " + *warning);
+    if (poses.empty ())
+      if (const auto warning = agreement.add (view))
+        scene.warnings.push_back (path + ": " + *warning);
     if (poses.empty () && view.view && isRepeated (*view.view, scene.views))
     {
       view.view.reset ();

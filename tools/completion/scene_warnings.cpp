@@ -25,12 +25,34 @@ constexpr double long_object = 5.0;         ///< metres; what is longer is hardl
 // a tenth too large.
 constexpr double least_across = 8.0;
 constexpr double outlier_share = 0.02; ///< of its points, on each side
+constexpr double larger_of_two = 2.0;  ///< than the other: one of two is always the larger
 
 /** \brief How far points extend along the axes, without outliers, metres. */
 Eigen::Vector3d
 extentOf (const std::vector<OrientedPoint>& points)
 {
   return trimmedBox<double> (points, outlier_share, [] (const OrientedPoint& p) { return p.position; }).sizes ();
+}
+
+/** \brief Whether what is found on a plane has it on most sides, as a thing on a table, and no side of a box beside
+ * another one. */
+bool
+isSurrounded (const std::vector<Eigen::Vector3f>& points, const ObjectSegmentation& found)
+{
+  constexpr int sides = 8;
+  const Eigen::Vector3f up = found.support_planes.front ().head<3> (), u = up.unitOrthogonal (), v = up.cross (u);
+  int beyond = 0;
+  for (int k = 0; k < sides; ++k)
+  {
+    const float angle = 2.0f * static_cast<float> (M_PI) * static_cast<float> (k) / sides;
+    const Eigen::Vector3f direction = std::cos (angle) * u + std::sin (angle) * v;
+    std::vector<float> of_plane, of_thing;
+    for (std::size_t p = 0; p < points.size (); ++p)
+      (found.labels[p] == 0 ? of_plane : of_thing).push_back (direction.dot (points[p]));
+    const float end = trimmedMax (of_thing, outlier_share), width = end - trimmedMin (of_thing, outlier_share);
+    beyond += trimmedMax (of_plane, outlier_share) > end + 0.25f * width;
+  }
+  return 2 * beyond > sides;
 }
 
 /** \brief How many things stand on the planes that points without an order show. */
@@ -43,7 +65,9 @@ thingsOnPlanes (const std::vector<OrientedPoint>& points)
   try
   {
     const ObjectSegmentation found = segmentClusters (some);
-    return found.support_planes.empty () ? 0 : found.objects;
+    if (found.support_planes.empty () || (found.objects == 1 && !isSurrounded (some, found)))
+      return 0;
+    return found.objects;
   }
   catch (const DegenerateInput&) // too few points
   {
@@ -116,7 +140,7 @@ objectLikeBackground (const SceneInput& scene, const std::vector<std::uint32_t>&
   for (const auto& [id, object] : scene.objects)
     if (id != largest)
       others.insert (others.end (), object.points.begin (), object.points.end ());
-  if (extent_m <= extentOf (others).norm ())
+  if (extent_m <= (scene.objects.size () == 2 ? larger_of_two : 1.0) * extentOf (others).norm ())
     return std::nullopt;
   const std::string number = std::to_string (largest);
   if (!background_labels.empty () && background_labels.front () == static_cast<std::uint32_t> (largest))

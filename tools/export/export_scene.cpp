@@ -6,6 +6,7 @@
 #include "output_files.h"
 #include "staged_files.h"
 
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/physics/formats/body_samples.h"
 #include "pcl_cosection/physics/formats/mesh_files.h"
@@ -183,7 +184,7 @@ exportScene (const std::string& result, const std::string& output, const ExportS
     removeFormerParts (report.scene, output);
     if (const std::vector<std::string> former = formerModels (output, report.files); !former.empty ())
       report.scene.warnings.push_back (
-          former.front () + (former.size () > 1 ? " and " + std::to_string (former.size () - 1) + " more" : "") +
+          firstAndMore (former) +
           ": of an earlier export; the meshes that they name are of this one now. Give all formats in one run");
   }
   return (report);

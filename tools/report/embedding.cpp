@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "embedding.h"
 
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 
@@ -111,15 +112,6 @@ dataUri (const Picture& picture)
   return (encoded (picture, CV_8UC3, cv::COLOR_RGB2BGR));
 }
 
-Eigen::AlignedBox3d
-boxOf (const TriangleMesh& mesh)
-{
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    box.extend (vertex.cast<double> ());
-  return (box);
-}
-
 TriangleMesh
 forDisplay (const TriangleMesh& mesh, std::size_t most_triangles)
 {
@@ -139,7 +131,7 @@ Json
 embedMesh (const TriangleMesh& mesh, const std::vector<double>& errors_m, double error_max_m)
 {
   check (mesh, errors_m);
-  Eigen::AlignedBox3d box = boxOf (mesh);
+  Eigen::AlignedBox3d box = vertexBox (mesh);
   if (box.isEmpty ())
     box.extend (Eigen::Vector3d::Zero ());
   const Eigen::Vector3d size = box.sizes ().cwiseMax (std::numeric_limits<float>::min ());

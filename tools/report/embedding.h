@@ -26,9 +26,6 @@ std::string dataUri (const TransparentPicture& picture);
 /** \brief A picture that fills its rectangle, in the place of its address. */
 std::string dataUri (const pcl::cosection::Picture& picture);
 
-/** \brief The box around a mesh; empty without vertices. */
-Eigen::AlignedBox3d boxOf (const pcl::cosection::TriangleMesh& mesh);
-
 /** \brief The mesh with at most so many triangles, for display; as it is where it cannot be made smaller. */
 pcl::cosection::TriangleMesh forDisplay (const pcl::cosection::TriangleMesh& mesh, std::size_t most_triangles);
 

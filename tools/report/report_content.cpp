@@ -111,7 +111,7 @@ poseAt (const std::vector<StampedPose>& poses, double stamp)
 Eigen::Vector3d
 middleOf (const RunObject& object)
 {
-  const Eigen::AlignedBox3d box = boxOf (object.completed.empty () ? object.seen : object.completed);
+  const Eigen::AlignedBox3d box = vertexBox (object.completed.empty () ? object.seen : object.completed);
   return (box.isEmpty () ? Eigen::Vector3d (Eigen::Vector3d::Zero ()) : Eigen::Vector3d (box.center ()));
 }
 

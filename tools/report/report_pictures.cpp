@@ -5,6 +5,7 @@
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/rendering/rasterizer.h>
 #include <pcl/cosection/visualization/scene_picture.h>
 
@@ -23,19 +24,6 @@ constexpr double filled = 0.94;                         ///< of a panel
 constexpr double elevation_rad = 0.45;                  ///< of the camera at least
 constexpr double turn_rad = 2.6;                        ///< from the front to the back
 constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< of a mesh without colours
-
-/** \brief A camera whose square picture a mesh fills. */
-PinholeCamera
-fittingCamera (const TriangleMesh& mesh, const Eigen::Isometry3d& T_world_camera, int size)
-{
-  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse ();
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    box.extend ((T_camera_world * vertex.cast<double> ()).hnormalized ());
-  const double focal_length = filled * size / std::max (box.sizes ().maxCoeff (), 1e-9);
-  const Eigen::Vector2d middle = Eigen::Vector2d::Constant (0.5 * (size - 1)) - focal_length * box.center ();
-  return {size, size, focal_length, focal_length, middle.x (), middle.y ()};
-}
 
 /** \brief Light from above on the left, and much from everywhere: hidden sides are to be seen. */
 double
@@ -81,7 +69,7 @@ shrinkInto (const RasterImage& image, TransparentPicture& result, int top)
 TransparentPicture
 drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const ObjectDirections& directions)
 {
-  const Eigen::AlignedBox3d box = boxOf (fit_to);
+  const Eigen::AlignedBox3d box = vertexBox (fit_to);
   const Eigen::Vector3d up = directions.up;
   const Eigen::Vector3d horizontal = (directions.front - directions.front.dot (up) * up).normalized ();
   const double elevation = std::max (elevation_rad, std::asin (std::clamp (directions.front.dot (up), -1.0, 1.0)));
@@ -92,7 +80,7 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
     const Eigen::Vector3d eye = box.center () + distance_radii * 0.5 * box.diagonal ().norm () *
                                                     (Eigen::AngleAxisd (row * turn_rad, up) * front);
     const Eigen::Isometry3d T_object_camera = Viewpoint{eye, box.center (), up}.pose ();
-    const PinholeCamera camera = fittingCamera (fit_to, T_object_camera, oversampling * panel_px);
+    const PinholeCamera camera = fittingCamera ({&fit_to}, T_object_camera, oversampling * panel_px, filled);
     Rasterizer rasterizer (camera, T_object_camera, 1e-6);
     rasterizer.draw (mesh, 1, Eigen::Isometry3d::Identity (), plain);
     shrinkInto (rasterizer.image (), result, row * panel_px);

@@ -4,6 +4,7 @@
 #include "embedding.h"
 
 #include "pcl_cosection/visualization/scene_legend.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include <algorithm>
@@ -105,9 +106,9 @@ firstView (const ReportContent& content)
   }
   Eigen::AlignedBox3d box;
   for (const RunObject& object : content.run.objects)
-    box.extend (boxOf (object.completed.empty () ? object.seen : object.completed));
+    box.extend (vertexBox (object.completed.empty () ? object.seen : object.completed));
   if (box.isEmpty ())
-    box = boxOf (content.run.background);
+    box = vertexBox (content.run.background);
   if (box.isEmpty ())
     box.extend (Eigen::Vector3d::Zero ());
   Viewpoint view;

@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/volume/mesh_distance/brick_distances.h"
 
 #include <algorithm>
@@ -94,7 +95,7 @@ IntersectionConstraint::addHalfSpace (const Eigen::Vector4d& plane, const std::v
   parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
     for (int j = 0; j < grid_.dims.y (); ++j)
     {
-      const double height_of_row = (plane.head<3> ().dot (grid_.center (0, j, k)) + plane[3]) / grid_.voxel_size_m;
+      const double height_of_row = heightOver (plane, grid_.center (0, j, k)) / grid_.voxel_size_m;
       for (int i = 0; i < grid_.dims.x (); ++i)
       {
         const std::size_t n = grid_.index (i, j, k);

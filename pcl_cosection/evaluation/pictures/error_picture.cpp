@@ -4,6 +4,7 @@
 #include "picture_canvas.h"
 
 #include "pcl_cosection/mesh/triangle_shape.h"
+#include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
@@ -60,20 +61,6 @@ withCreasedNormals (const TriangleMesh& mesh)
     }
   }
   return result;
-}
-
-/** \brief A camera of a square picture that all vertices of the meshes fill. */
-PinholeCamera
-fittingCamera (const std::array<TriangleMesh, 2>& meshes, const Eigen::Isometry3d& T_world_camera, int size)
-{
-  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse ();
-  Eigen::AlignedBox2d box;
-  for (const TriangleMesh& mesh : meshes)
-    for (const Eigen::Vector3f& v : mesh.vertices)
-      box.extend ((T_camera_world * v.cast<double> ()).hnormalized ());
-  const double focal_length = filled * size / std::max (box.sizes ().maxCoeff (), 1e-9);
-  const Eigen::Vector2d middle = Eigen::Vector2d::Constant (0.5 * (size - 1)) - focal_length * box.center ();
-  return {size, size, focal_length, focal_length, middle.x (), middle.y ()};
 }
 
 /** \brief A mesh in the colours of its distance to a surface. */
@@ -197,7 +184,7 @@ drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
     const Eigen::Vector3d eye = box.center () +
                                 distance_radii * radius_m * (Eigen::AngleAxisd (column * turn_rad, up) * front);
     const Eigen::Isometry3d T_world_camera = lookAt (eye, box.center (), up);
-    const PinholeCamera camera = fittingCamera (meshes, T_world_camera, panel * oversampling);
+    const PinholeCamera camera = fittingCamera ({&meshes[0], &meshes[1]}, T_world_camera, panel * oversampling, filled);
     for (int row = 0; row < 2; ++row)
       drawPanel (meshes[row], *others[row], camera, T_world_camera, options)
           .copyTo (canvas.pixels () (cv::Rect (column * panel * oversampling,

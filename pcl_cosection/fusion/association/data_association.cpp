@@ -3,22 +3,14 @@
 
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/require.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace pcl::cosection {
 namespace {
-
-void
-check (bool good, const char* message)
-{
-  if (!good)
-    throw InvalidArgument (std::string ("data association: ") + message);
-}
 
 /** \brief A model prepared for many points. */
 class ModelLookup
@@ -81,11 +73,11 @@ lookups (const std::vector<AssociatedModel>& models, const AssociationOptions& o
 void
 AssociationOptions::validate () const
 {
-  check (sigma_m > 0.0 && std::isfinite (sigma_m), "sigma_m must be positive");
-  check (inlier_share > 0.0 && inlier_share < 1.0, "inlier_share must be between 0 and 1");
-  check (uniform > 0.0 && std::isfinite (uniform), "uniform must be positive");
-  check (free_truncation > 0.0 && free_truncation <= 1.0, "free_truncation must be in (0, 1]");
-  check (threads >= 0, "threads must not be negative");
+  require (isPositive (sigma_m), "data association: sigma_m must be positive");
+  require (inlier_share > 0.0 && inlier_share < 1.0, "data association: inlier_share must be between 0 and 1");
+  require (isPositive (uniform), "data association: uniform must be positive");
+  require (free_truncation > 0.0 && free_truncation <= 1.0, "data association: free_truncation must be in (0, 1]");
+  require (threads >= 0, "data association: threads must not be negative");
 }
 
 DataAssociation::DataAssociation (const AssociationOptions& options) : options_ (options)
@@ -128,7 +120,7 @@ DataAssociation::probabilities (const std::vector<Eigen::Vector3f>& points, cons
 PointAssignment
 DataAssociation::assign (const std::vector<Eigen::Vector3f>& points, const std::vector<AssociatedModel>& models) const
 {
-  check (models.size () <= 250, "there are more than 250 models");
+  require (models.size () <= 250, "data association: there are more than 250 models");
   PointAssignment result;
   result.model.assign (points.size (), PointAssignment::no_point);
   result.probability.assign (points.size (), 0.0f);

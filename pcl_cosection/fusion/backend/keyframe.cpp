@@ -1,25 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/keyframe.h>
 
-#include <pcl/cosection/common/error.h>
+#include "pcl_cosection/fusion/camera_size.h"
+
 #include <pcl/cosection/surface/normals.h>
 
 #include <limits>
-#include <string>
 
 namespace pcl::cosection {
-namespace {
-
-void
-requireSize (int width, int height, const PinholeCamera& camera, const char* what)
-{
-  if (width != camera.width || height != camera.height)
-    throw InvalidArgument (std::string (what) + " has " + std::to_string (width) + " x " + std::to_string (height) +
-                           " pixels, the camera " + std::to_string (camera.width) + " x " +
-                           std::to_string (camera.height));
-}
-
-} // namespace
 
 void
 KeyframeOptions::validate () const
@@ -35,7 +23,7 @@ makeDepthView (const Image<float>& depth, const PinholeCamera& camera, const Eig
                const KeyframeOptions& options)
 {
   options.validate ();
-  requireSize (depth.width, depth.height, camera, "the depth image");
+  requireSizeOf (camera, depth, "the depth image");
   DepthView view;
   view.camera = camera;
   view.T_world_sensor = T_world_camera;
@@ -51,7 +39,7 @@ makeKeyframe (const RgbdFrame& frame, const PinholeCamera& camera, const Image<s
               const Eigen::Isometry3d& T_world_camera, const KeyframeOptions& options)
 {
   if (!instances.pixels.empty ())
-    requireSize (instances.width, instances.height, camera, "the mask");
+    requireSizeOf (camera, instances, "the mask");
   Keyframe keyframe;
   keyframe.stamp = frame.stamp;
   keyframe.view = makeDepthView (frame.depth, camera, T_world_camera, options);

@@ -4,13 +4,14 @@
 #include "pcl_cosection/common/multiversion.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/require.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <vector>
 
 namespace pcl::cosection {
@@ -19,18 +20,6 @@ namespace {
 constexpr float no_reading = -1e9f; ///< far from every reading
 constexpr float cut_off = 4.5f;     ///< half the square of three sigma
 constexpr int max_window_px = 99;
-
-bool
-isReading (float z)
-{
-  return z > 0.0f && z <= std::numeric_limits<float>::max ();
-}
-
-bool
-isPositive (double value)
-{
-  return value > 0.0 && std::isfinite (value);
-}
 
 /** \brief exp (-x) for 0 <= x <= 10, to a relative 2e-5; a few instructions that go into vectors. */
 PCL_COSECTION_INLINE float

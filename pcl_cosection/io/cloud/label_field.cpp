@@ -160,7 +160,7 @@ readLabels (const std::string& path, const CloudHeader& header, const PCLPointCl
     }
     else if (cloud.positions[i].allFinite ())
     {
-      cloud.positions[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+      cloud.positions[i].setConstant (nan_value);
       ++cloud.ignored;
       has_none = has_none || label < 0;
     }

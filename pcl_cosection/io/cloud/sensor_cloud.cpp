@@ -16,13 +16,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace pcl::cosection {
 namespace {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 
 const CloudField&
 requireNumber (const std::string& path, const CloudHeader& header, const std::string& name)

@@ -10,10 +10,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace pcl::cosection {
+
+/** \brief Of coordinates that no reading gave, and of normals that are not known. */
+inline constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief The points of a file, in the sensor frame. */
 struct SensorCloud

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint64_t contacts_of_scene = 100, contacts_of_body = 80, most_contacts = 2600, rows_of_contact = 3;
 constexpr double foot_radius_m = 0.0005;
+constexpr int touches_feet = 2; // bit of contype and conaffinity: feet reach beyond their body, and touch planes alone
 
 std::string
 rgbaText (const TriangleMesh::Colour& colour)
@@ -69,7 +70,11 @@ addSettings (XmlText& xml, const PhysicalScene& scene)
   xml.add ("geom", {{"type", "mesh"}, {"group", "3"}});
   xml.close ();
   xml.open ("default", {{"class", "foot"}});
-  xml.add ("geom", {{"type", "sphere"}, {"size", numberText (foot_radius_m)}, {"group", "3"}});
+  xml.add ("geom", {{"type", "sphere"},
+                    {"size", numberText (foot_radius_m)},
+                    {"contype", "0"},
+                    {"conaffinity", numberText (touches_feet)},
+                    {"group", "3"}});
   xml.close ();
   xml.close ();
 }
@@ -102,6 +107,7 @@ addPlane (XmlText& xml, const PhysicalPlane& plane)
                     {"pos", numbersText (place)},
                     {"quat", numbersText (scalarFirst (rotationOf (pose)))},
                     {"size", numbersText (plane.endless ? Eigen::Vector3d (half.x (), half.y (), grid_m) : half)},
+                    {"contype", numberText (1 | touches_feet)},
                     {"rgba", rgbaText (plane_colour)}});
 }
 

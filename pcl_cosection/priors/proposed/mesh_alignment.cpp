@@ -41,7 +41,7 @@ class Alignment : public MeshEvidence
 public:
   using MeshEvidence::MeshEvidence;
 
-  MeshAlignment best (int threads) const
+  ProposalFit best (int threads) const
   {
     std::vector<std::pair<double, Similarity>> starts (static_cast<std::size_t> (start_directions) * start_turns);
     parallelFor (0, static_cast<int> (starts.size ()), threads, [&] (int n) { starts[n] = start (n); });
@@ -59,9 +59,10 @@ public:
     });
     keep (starts, 1);
     const Similarity& similarity = starts.front ().second;
-    MeshAlignment result{fit (similarity), Eigen::Affine3d::Identity (), similarity.scale / mesh_.unit ()};
-    result.T_object_mesh.linear () = similarity.scale * similarity.R / mesh_.unit ();
-    result.T_object_mesh.translation () = similarity * (-mesh_.middle () / mesh_.unit ());
+    ProposalFit result = fit (similarity);
+    result.scale = similarity.scale / mesh_.unit ();
+    result.T_object_proposal.linear () = similarity.scale * similarity.R / mesh_.unit ();
+    result.T_object_proposal.translation () = similarity * (-mesh_.middle () / mesh_.unit ());
     return result;
   }
 
@@ -225,14 +226,14 @@ private:
 
   double costOf (const Similarity& similarity, Eigen::Index samples) const
   {
-    const MeshFit result = fit (similarity, samples);
+    const ProposalFit result = fit (similarity, samples);
     return (1.0 - result.explained) + (1.0 - result.confirmed) + 2.0 * result.contradicted;
   }
 };
 
 } // namespace
 
-std::optional<MeshAlignment>
+std::optional<ProposalFit>
 alignMesh (const TriangleMesh& mesh, const MeasuredObject& object, int threads)
 {
   if (object.points.size () < MeshEvidence::least_points)

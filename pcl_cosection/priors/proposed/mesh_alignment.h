@@ -4,18 +4,9 @@
 #include "mesh_evidence.h"
 #include <pcl/cosection/common/triangle_mesh.h>
 
-#include <Eigen/Geometry>
-
 #include <optional>
 
 namespace pcl::cosection {
-
-/** \brief A mesh moved, turned and scaled onto an object. */
-struct MeshAlignment : MeshFit
-{
-  Eigen::Affine3d T_object_mesh = Eigen::Affine3d::Identity (); ///< a rotation, one scale, a translation
-  double scale = 1.0;
-};
 
 /** \brief Find the pose and the scale of a mesh at which it explains an object's points and does not contradict what
  * was seen: from many rotations, by iterative closest points in both directions (P. J. Besl, N. D. McKay, PAMI 1992;
@@ -23,6 +14,6 @@ struct MeshAlignment : MeshFit
  * matched.
  * \param[in] mesh of any size, not empty
  * \return nothing if there are too few points, or the mesh has no extent */
-std::optional<MeshAlignment> alignMesh (const TriangleMesh& mesh, const MeasuredObject& object, int threads);
+std::optional<ProposalFit> alignMesh (const TriangleMesh& mesh, const MeasuredObject& object, int threads);
 
 } // namespace pcl::cosection

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_evidence.h"
 
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace pcl::cosection {
 namespace {
@@ -92,26 +92,11 @@ MeshEvidence::isFree (const Eigen::Vector3d& p, double margin_m) const
   });
 }
 
-double
-MeshEvidence::heightOf (const Eigen::Vector3d& p) const
-{
-  double height = std::numeric_limits<double>::infinity ();
-  for (const Eigen::Vector4d& plane : object_.resting)
-    height = std::min (height, plane.head<3> ().dot (p) + plane[3]);
-  return height;
-}
-
-double
-MeshEvidence::tolerance () const
-{
-  return std::max (2.0 * object_.noise_m, 0.03 * size_m_);
-}
-
-MeshFit
+ProposalFit
 MeshEvidence::fit (const Similarity& similarity, Eigen::Index samples) const
 {
-  MeshFit result;
-  const double tolerance_m = tolerance ();
+  ProposalFit result;
+  const double tolerance_m = std::max (2.0 * object_.noise_m, 0.03 * size_m_);
   std::vector<double> distances;
   for (Eigen::Index n = 0; n < points_.size (); ++n)
   {
@@ -146,19 +131,21 @@ MeshEvidence::fit (const Similarity& similarity, Eigen::Index samples) const
   {
     const Eigen::Vector3d p = similarity * mesh_.position (n);
     all += 1.0;
-    result.contradicted += isFree (p, tolerance_m) || heightOf (p) < -tolerance_m;
+    result.contradicted += isFree (p, tolerance_m) ||
+                           std::any_of (object_.resting.begin (), object_.resting.end (),
+                                        [&] (const auto& plane) { return heightOver (plane, p) < -tolerance_m; });
   }
   result.contradicted /= all;
   return result;
 }
 
-MeshFit
+ProposalFit
 fitInPlace (const TriangleMesh& mesh, const MeasuredObject& object)
 {
   if (object.points.size () < MeshEvidence::least_points)
     return {};
   const MeshEvidence evidence (mesh, object);
-  return evidence.isPossible () ? evidence.fit (evidence.inPlace ()) : MeshFit ();
+  return evidence.isPossible () ? evidence.fit (evidence.inPlace ()) : ProposalFit ();
 }
 
 } // namespace pcl::cosection

@@ -6,6 +6,7 @@
 #include "thinned_points.h"
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/surface/co_section.h>
 
 #include <Eigen/Geometry>
 
@@ -22,15 +23,6 @@ struct MeasuredObject
   const OcclusionMap& hidden;                  ///< where other things hide the object
   const std::vector<Eigen::Vector4d>& resting; ///< planes on which it rests: n.x + d = 0, unit n towards it
   double noise_m;                              ///< how far points may be from the surface
-};
-
-/** \brief How well a mesh explains an object. */
-struct MeshFit
-{
-  double distance_m = 0.0;   ///< median distance of the points from the mesh
-  double explained = 0.0;    ///< share of the points that are near the mesh, and face as it does
-  double confirmed = 0.0;    ///< share of the mesh's surface that the views should see which is near points
-  double contradicted = 0.0; ///< share of the mesh's surface that is in seen free space, or below a plane
 };
 
 /** \brief A rotation, one scale and a translation. */
@@ -55,8 +47,8 @@ public:
   /** \brief Whether there are enough points. */
   bool isPossible () const;
 
-  /** \brief How well the mesh fits. \param[in] samples how many of the mesh's points are looked at */
-  MeshFit fit (const Similarity& similarity, Eigen::Index samples = SampledMesh::matched) const;
+  /** \brief How well the mesh fits, without its pose. \param[in] samples how many of the mesh's points are looked at */
+  ProposalFit fit (const Similarity& similarity, Eigen::Index samples = SampledMesh::matched) const;
 
   /** \brief The similarity that leaves the mesh where it is. */
   Similarity inPlace () const;
@@ -81,13 +73,10 @@ protected:
   double cell_m_; // between neighbouring points
 
 private:
-  double heightOf (const Eigen::Vector3d& p) const;
-  double tolerance () const;
-
   std::vector<Eigen::Vector3d> sensors_; // from the middle of the points
 };
 
 /** \brief How well a mesh in an object's frame explains it; not at all if there are too few points. */
-MeshFit fitInPlace (const TriangleMesh& mesh, const MeasuredObject& object);
+ProposalFit fitInPlace (const TriangleMesh& mesh, const MeasuredObject& object);
 
 } // namespace pcl::cosection

@@ -35,7 +35,7 @@ constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
 
 /** \brief The larger, the better it fits. */
 double
-merit (const MeshFit& fit)
+merit (const ProposalFit& fit)
 {
   return fit.explained + fit.confirmed - 2.0 * fit.contradicted;
 }
@@ -50,9 +50,9 @@ restingOn (const Observation& object, const std::vector<Eigen::Vector4d>& planes
 
 /** \brief What a shape is compared with. \param[in] resting planes on which it rests; must outlive the result */
 MeasuredObject
-measuredObject (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& resting)
+measuredObject (const Observation& object, const std::vector<Eigen::Vector4d>& resting)
 {
-  return {object.points (), object.views, setting.hidden, resting, noise_vox * object.voxel_size_m};
+  return {object.points (), object.views, object.hidden, resting, noise_vox * object.voxel_size_m};
 }
 
 /** \brief Expect a distance at a voxel that is not near data.
@@ -91,16 +91,17 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
   {
     shapes.aligned = true;
     const std::vector<Eigen::Vector4d> resting = restingOn (object, planes);
-    const MeasuredObject measured = measuredObject (object, setting, resting);
+    const MeasuredObject measured = measuredObject (object, resting);
     for (std::size_t n = 0; n < object.proposals->size (); ++n)
     {
       const TriangleMesh mesh = cleanMesh ((*object.proposals)[n]);
-      const auto alignment = mesh.empty () ? std::nullopt : alignMesh (mesh, measured, setting.threads);
-      if (!alignment || (shapes.best && merit (*alignment) <= merit (shapes.best->alignment)))
+      auto fit = mesh.empty () ? std::nullopt : alignMesh (mesh, measured, setting.threads);
+      if (!fit || (shapes.best && merit (*fit) <= merit (shapes.best->fit)))
         continue;
-      const bool is_used = alignment->explained >= least_explained && alignment->confirmed >= least_confirmed &&
-                           alignment->contradicted <= most_contradicted;
-      shapes.best = ProposedShape{n, *alignment, is_used, movedMesh (mesh, alignment->T_object_mesh)};
+      fit->proposal = n;
+      fit->used = fit->explained >= least_explained && fit->confirmed >= least_confirmed &&
+                  fit->contradicted <= most_contradicted;
+      shapes.best = ProposedShape{*fit, movedMesh (mesh, fit->T_object_proposal)};
     }
   }
   return shapes.best ? &*shapes.best : nullptr;
@@ -110,13 +111,12 @@ bool
 keepIfAsGood (const SignedDistanceField& without, const Observation& object, const ObjectSetting& setting,
               const std::vector<Eigen::Vector4d>& planes)
 {
-  ProposedShape& shape = object.proposed->best.value ();
+  ProposalFit& fit = object.proposed->best.value ().fit;
   const TriangleMesh other = extractIsoSurface (without, {true, setting.threads});
   const std::vector<Eigen::Vector4d> resting = restingOn (object, planes);
-  const MeshFit of_other = fitInPlace (other, measuredObject (object, setting, resting));
-  shape.is_used = shape.alignment.explained >= as_well * of_other.explained;
-  shape.is_withdrawn = !shape.is_used;
-  return shape.is_used;
+  fit.used = fit.explained >= as_well * fitInPlace (other, measuredObject (object, resting)).explained;
+  fit.withdrawn = !fit.used;
+  return fit.used;
 }
 
 const LearnedShape*
@@ -134,9 +134,9 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
     if (completion.mesh.empty ())
       return nullptr;
     const std::vector<Eigen::Vector4d> resting = {plane};
-    const MeshFit fit = fitInPlace (completion.mesh, measuredObject (object, setting, resting));
-    const bool is_used = fit.confirmed >= least_confirmed_learned && fit.contradicted <= most_contradicted_learned;
-    shapes.learned = LearnedShape{std::move (completion), fit, is_used};
+    ProposalFit fit = fitInPlace (completion.mesh, measuredObject (object, resting));
+    fit.used = fit.confirmed >= least_confirmed_learned && fit.contradicted <= most_contradicted_learned;
+    shapes.learned = LearnedShape{std::move (completion), fit};
   }
   return shapes.learned ? &*shapes.learned : nullptr;
 }

@@ -6,7 +6,6 @@
 #include "pcl_cosection/priors/object_priors.h"
 #include "pcl_cosection/priors/proposal.h"
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -15,19 +14,15 @@ namespace pcl::cosection {
 /** \brief A mesh that was proposed as an object's shape, where it fits the measurements best. */
 struct ProposedShape
 {
-  std::size_t number = 0; ///< in the order of the proposals
-  MeshAlignment alignment;
-  bool is_used = false;      ///< it explains the points, and what was seen confirms it
-  TriangleMesh mesh;         ///< aligned, object frame
-  bool is_withdrawn = false; ///< the shape without it explains them better
+  ProposalFit fit;
+  TriangleMesh mesh; ///< aligned, object frame
 };
 
 /** \brief What the network of the learned prior completes, and how well that fits. */
 struct LearnedShape
 {
   LearnedCompletion completion;
-  MeshFit fit;
-  bool is_used = false;
+  ProposalFit fit;
 };
 
 /** \brief The best of an object's proposals, and what the network completes. They are found once. */

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/cosection/volume/signed_distance_field.h>
+
 #include <Eigen/Geometry>
 
 #include <utility>
@@ -17,11 +19,9 @@ public:
 
   bool empty () const { return sides_.empty (); }
 
-  /** \brief max_k (n_k.x - s_k): at most the signed distance to the region, negative inside; metres. 0 without any. */
-  double beyond (const Eigen::Vector3d& x) const;
-
-  /** \brief beyond () at the places \a first + i * \a step, i = 0 ... \a count - 1. \param[out] values metres */
-  void beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const;
+  /** \brief max_k (n_k.x - s_k) at the voxels of a row of a grid: at most the signed distance to the region, negative
+   * inside; metres. 0 without any. */
+  std::vector<float> beyond (const VoxelGrid& grid, int j, int k) const;
 
 private:
   std::vector<std::pair<Eigen::Vector3d, double>> sides_; // n_k, s_k

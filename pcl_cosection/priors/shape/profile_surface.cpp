@@ -125,26 +125,15 @@ ProfileSurface::copies (const std::vector<OrientedPoint>& points) const
   std::copy_if (points.begin (), points.end (), std::back_inserter (held), [this] (const OrientedPoint& p) {
     return holds (p.position.cast<double> ()) && (!vessel_ || vessel_->holds (profilePointOf (p)));
   });
-  return onOtherSides (held);
-}
-
-std::vector<OrientedPoint>
-ProfileSurface::onOtherSides (const std::vector<OrientedPoint>& points) const
-{
   std::vector<OrientedPoint> copies;
   for (const Eigen::Matrix3d& turn : turns ())
-    for (const OrientedPoint& p : points)
-      copies.push_back (turnedAbout (center_, turn, p));
+    for (OrientedPoint p : held)
+    {
+      p.position = (center_ + turn * (p.position.cast<double> () - center_)).cast<float> ();
+      p.normal = (turn * p.normal.cast<double> ()).cast<float> ();
+      copies.push_back (p);
+    }
   return copies;
-}
-
-std::shared_ptr<const ProfileSurface>
-ProfileSurface::withoutFloor () const
-{
-  const std::shared_ptr<ProfileSurface> tube = clone ();
-  if (vessel_)
-    tube->vessel_ = vessel_->withoutFloor ();
-  return tube;
 }
 
 double

@@ -17,15 +17,6 @@ namespace pcl::cosection {
 /** \brief Least cosine between a vertical axis and a plane's normal. */
 constexpr double vertical_cosine = 0.97;
 
-/** \brief A copy of a point by a turn or a reflection about \a center. */
-inline OrientedPoint
-turnedAbout (const Eigen::Vector3d& center, const Eigen::Matrix3d& turn, OrientedPoint point)
-{
-  point.position = (center + turn * (point.position.cast<double> () - center)).cast<float> ();
-  point.normal = (turn * point.normal.cast<double> ()).cast<float> ();
-  return point;
-}
-
 /** \brief A surface with the same profile on all sides of an axis: a surface of revolution, or an open box. */
 class ProfileSurface
 {
@@ -50,14 +41,15 @@ public:
   /** \brief Copies, on other sides of the axis, of the points for which holds () is true. */
   std::vector<OrientedPoint> copies (const std::vector<OrientedPoint>& points) const;
 
-  /** \brief Copies of all points on other sides of the axis. */
-  std::vector<OrientedPoint> onOtherSides (const std::vector<OrientedPoint>& points) const;
-
   /** \brief The profile of its wall; null if it is no vessel. */
   const WallProfile* vessel () const { return vessel_.get (); }
 
-  /** \brief This surface as a tube: a vessel open at both ends. */
-  std::shared_ptr<const ProfileSurface> withoutFloor () const;
+  /** \brief Make a vessel a tube, open at both ends. A dish stays as it is: its floor was seen. */
+  void openFloor ()
+  {
+    if (vessel_)
+      vessel_->openFloor ();
+  }
 
   /** \brief The part of a vessel to which a point belongs; the outer side for other shapes. */
   VesselPart partOf (const OrientedPoint& point) const
@@ -98,8 +90,6 @@ protected:
     Eigen::Vector3d away;   // unit, across the axis
   };
 
-  virtual std::shared_ptr<ProfileSurface> clone () const = 0;
-
   /** \brief The turns and reflections about center () that make the copies. */
   virtual std::vector<Eigen::Matrix3d> turns () const = 0;
 
@@ -124,9 +114,9 @@ protected:
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   Eigen::Vector3d direction_ = Eigen::Vector3d::UnitZ ();
-  double cell_m_ = 0.0;                       // edge of the cells of the profile
-  std::vector<ProfilePoint> profile_;         // of the points that it holds
-  std::shared_ptr<const WallProfile> vessel_; // null if it is not hollow
+  double cell_m_ = 0.0;                 // edge of the cells of the profile
+  std::vector<ProfilePoint> profile_;   // of the points that it holds
+  std::shared_ptr<WallProfile> vessel_; // null if it is not hollow
 
 private:
   Eigen::Vector2d profileOf (const Eigen::Vector3d& position) const; // height along the axis, distance from it
@@ -148,15 +138,15 @@ private:
  * \param[in] alone its surroundings are unknown: without a plane, the rim of a dish may determine the axis
  * \return null if less than three quarters of the points belong to such a surface, or less than 70 degrees of it were
  * seen. For a plate, which hardly faces sideways, a round outline as seen from above suffices */
-std::shared_ptr<const ProfileSurface> fitSurfaceOfRevolution (const std::vector<OrientedPoint>& points,
-                                                              const std::optional<Eigen::Vector4d>& plane, bool alone);
+std::shared_ptr<ProfileSurface> fitSurfaceOfRevolution (const std::vector<OrientedPoint>& points,
+                                                        const std::optional<Eigen::Vector4d>& plane, bool alone);
 
 /** \brief Fit an open box to the points of one body.
  * \param[in] faces normals of its large faces: without a plane, the floor is one of them
  * \param[in] plane support plane (n, d) with n.x + d = 0, unit n towards the body
  * \return null if it is not hollow, or less than three quarters of the points belong to such walls and their floor */
-std::shared_ptr<const ProfileSurface> fitOpenBox (const std::vector<OrientedPoint>& points,
-                                                  const std::vector<Eigen::Vector3d>& faces,
-                                                  const std::optional<Eigen::Vector4d>& plane);
+std::shared_ptr<ProfileSurface> fitOpenBox (const std::vector<OrientedPoint>& points,
+                                            const std::vector<Eigen::Vector3d>& faces,
+                                            const std::optional<Eigen::Vector4d>& plane);
 
 } // namespace pcl::cosection

@@ -17,11 +17,11 @@ constexpr int even_directions = 162;     // approximate number
 constexpr std::size_t max_points = 4000; // an even subset of no more points is used
 constexpr double outlier_share = 0.002;  // of the points: outliers beyond a half-space
 
-std::shared_ptr<const ProfileSurface>
+std::shared_ptr<ProfileSurface>
 profileSurfaceOf (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces,
                   const std::optional<Eigen::Vector4d>& plane, bool alone)
 {
-  std::shared_ptr<const ProfileSurface> round = fitSurfaceOfRevolution (points, plane, alone), box;
+  std::shared_ptr<ProfileSurface> round = fitSurfaceOfRevolution (points, plane, alone), box;
   if (!round || !round->vessel ())
     box = fitOpenBox (points, faces, plane);
   return box ? box : round;
@@ -77,15 +77,6 @@ ProfiledShape::hiddenSide (const std::vector<OrientedPoint>& points, double step
   const std::vector<OrientedPoint> depths = profile_->depths (step_m);
   all.insert (all.end (), depths.begin (), depths.end ());
   return all;
-}
-
-ProfiledShape
-ProfiledShape::withoutFloor () const
-{
-  ProfiledShape open = *this;
-  if (profile_)
-    open.profile_ = profile_->withoutFloor ();
-  return open;
 }
 
 } // namespace pcl::cosection

@@ -71,8 +71,8 @@ public:
     return profile_ && profile_->vessel () ? profile_->vessel ()->wallThickness () : 0.0;
   }
 
-  /** \brief This shape with the vessel as a tube, open at both ends. */
-  ProfiledShape withoutFloor () const;
+  /** \brief Make a vessel, and that of all copies of this, a tube, open at both ends. */
+  void openFloor () { profile_->openFloor (); }
 
   /** \brief Whether a place belongs to the shape with a profile, and not to a handle. */
   bool holds (const Eigen::Vector3d& position) const { return profile_ && profile_->holds (position); }
@@ -102,7 +102,7 @@ private:
               const Profiles& profiles);
 
   bool faceted_ = false;
-  std::shared_ptr<const ProfileSurface> profile_; // null without a profile
+  std::shared_ptr<ProfileSurface> profile_; // null without a profile
   HalfSpaces region_;
 };
 

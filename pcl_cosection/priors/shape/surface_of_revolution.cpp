@@ -262,8 +262,6 @@ private:
     return radius;
   }
 
-  std::shared_ptr<ProfileSurface> clone () const override { return std::make_shared<SurfaceOfRevolution> (*this); }
-
   std::vector<Eigen::Matrix3d> turns () const override
   {
     std::vector<Eigen::Matrix3d> turns;
@@ -302,7 +300,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<const ProfileSurface>
+std::shared_ptr<ProfileSurface>
 fitSurfaceOfRevolution (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane,
                         bool alone)
 {

@@ -158,11 +158,9 @@ addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& 
   for (const Eigen::Affine3d& motion : motions)
     in_voxels.push_back (T_object_voxel.inverse () * motion * T_object_voxel);
   parallelFor (0, grid.dims.z (), energy.options.threads, [&] (int k) {
-    std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ()));
     for (int j = 0; j < grid.dims.y (); ++j)
     {
-      hull.beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (),
-                   beyond_m.data ());
+      const std::vector<float> beyond_m = hull.beyond (grid, j, k);
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);

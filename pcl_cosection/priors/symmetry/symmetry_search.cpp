@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -44,10 +45,10 @@ isPossible (const Symmetry& symmetry)
 }
 
 Symmetry
-symmetryOf (const CopyJudge& judge, std::string name, double weight, Motions motions)
+symmetryOf (const CopyJudge& judge, double weight, Motions motions)
 {
   const CopyEvidence evidence = judge.judge (motions);
-  return {std::move (name), std::move (motions), weight, evidence, judge.onPlane ()};
+  return {std::move (motions), weight, evidence, judge.onPlane ()};
 }
 
 /** \brief Whether a plane has samples on both sides. A mirror plane behind all that was seen could not be refuted. */
@@ -98,6 +99,24 @@ bestMirrors (const CopyJudge& judge, const Footprint& footprint)
   return best;
 }
 
+/** \brief Add the full turn about the best of some axes.
+ * \param[in] motions of so many copies about an axis
+ * \param[in] least evidence for it */
+void
+addBestTurn (const CopyJudge& judge, const std::function<MakeMotions (int)>& motions,
+             const std::vector<Parameters>& axes, const Parameters& steps, double least,
+             std::vector<Symmetry>& symmetries)
+{
+  RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
+  if (best.at.empty ())
+    return;
+  climb (judge, motions (fine_turns), steps, best);
+  if (best.ratio <= least)
+    return;
+  center (judge, motions (fine_turns), steps, best);
+  symmetries.push_back (symmetryOf (judge, turn_weight, motions (all_turns) (best.at)));
+}
+
 /** \brief Add the full turn about an axis across the footprint's plane. It lies in a vertical mirror plane. */
 void
 addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const std::vector<RatedParameters>& mirrors,
@@ -116,15 +135,7 @@ addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const 
       const double along = j * footprint.step ();
       axes.push_back ({c * mirror.at[1] - s * along, s * mirror.at[1] + c * along});
     }
-  RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
-  if (best.at.empty ())
-    return;
-  const Parameters steps = {0.5 * footprint.step (), 0.5 * footprint.step ()};
-  climb (judge, motions (fine_turns), steps, best);
-  if (!(best.ratio > least))
-    return;
-  center (judge, motions (fine_turns), steps, best);
-  symmetries.push_back (symmetryOf (judge, "full turn", turn_weight, motions (all_turns) (best.at)));
+  addBestTurn (judge, motions, axes, {0.5 * footprint.step (), 0.5 * footprint.step ()}, least, symmetries);
 }
 
 /** \brief Add the full turn about an axis along the plane. It lies in a vertical mirror plane. */
@@ -142,14 +153,8 @@ addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, cons
   for (const RatedParameters& mirror : mirrors)
     for (int k = 1; k <= axis_heights; ++k)
       axes.push_back ({mirror.at[0], mirror.at[1], footprint.top () * k / (axis_heights + 1)});
-  RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
-  if (best.at.empty ())
-    return;
   const Parameters steps = {M_PI_2 / mirror_angles, footprint.step (), 0.5 * footprint.top () / (axis_heights + 1)};
-  climb (judge, motions (fine_turns), steps, best);
-  center (judge, motions (fine_turns), steps, best);
-  symmetries.push_back (
-      symmetryOf (judge, "full turn about a horizontal axis", turn_weight, motions (all_turns) (best.at)));
+  addBestTurn (judge, motions, axes, steps, -std::numeric_limits<double>::infinity (), symmetries);
 }
 
 /** \brief Add a mirror plane, and two at right angles. \param[in] with_level also three, of which one
@@ -205,10 +210,10 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
   if (best_one.ratio > least)
   {
     center (judge, one, steps_of_one, best_one, wanted);
-    symmetries.push_back (symmetryOf (judge, "mirror plane", 1.0, one (best_one.at)));
+    symmetries.push_back (symmetryOf (judge, 1.0, one (best_one.at)));
   }
   if (best_two.ratio > least)
-    symmetries.push_back (symmetryOf (judge, "two mirror planes", mirrors_weight, two (best_two.at)));
+    symmetries.push_back (symmetryOf (judge, mirrors_weight, two (best_two.at)));
   if (!with_level || best_two.at.empty ())
     return;
   const MakeMotions three = [&] (const Parameters& p) { // angle, offsets
@@ -230,7 +235,7 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     return;
   climb (judge, three, steps_of_three, best);
   center (judge, three, steps_of_three, best, wanted);
-  symmetries.push_back (symmetryOf (judge, "three mirror planes", three_mirrors_weight, three (best.at)));
+  symmetries.push_back (symmetryOf (judge, three_mirrors_weight, three (best.at)));
 }
 
 /** \brief Three directions at right angles along which normals are most concentrated: those that maximise the sum of
@@ -295,13 +300,13 @@ Symmetry
 givenTurn (const CopyJudge& judge, const Eigen::Vector3d& center, const Eigen::Vector3d& axis)
 {
   if (!axis.isZero ())
-    return symmetryOf (judge, "full turn about a fitted axis", turn_weight, turns (center, axis, all_turns));
+    return symmetryOf (judge, turn_weight, turns (center, axis, all_turns));
   Motions motions;
   for (int k = 0; k < 3; ++k)
     for (const Eigen::Affine3d& motion : turns (center, Eigen::Vector3d::Unit (k), all_turns / 2))
       for (int l = 0; l < 4; ++l)
         motions.push_back (rotation (center, Eigen::Vector3d::Unit ((k + 1) % 3), 0.25 * M_PI * l) * motion);
-  return symmetryOf (judge, "all turns", ball_weight, std::move (motions));
+  return symmetryOf (judge, ball_weight, std::move (motions));
 }
 
 std::optional<Symmetry>

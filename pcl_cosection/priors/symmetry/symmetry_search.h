@@ -4,7 +4,6 @@
 #include "copy_evidence.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace pcl::cosection {
@@ -12,7 +11,6 @@ namespace pcl::cosection {
 /** \brief A group of motions that may take an object to itself. */
 struct Symmetry
 {
-  std::string name;
   Motions motions;     ///< without the identity; several of a full turn
   double weight = 1.0; ///< independent motions of the group
   CopyEvidence evidence;

@@ -109,9 +109,6 @@ public:
            !(static_cast<double> (beyond) > beyond_share * static_cast<double> (points.size ()));
   }
 
-  /** \brief A copy of this: a dish always has a floor, as it was seen. */
-  std::shared_ptr<const WallProfile> withoutFloor () const override { return std::make_shared<DishProfile> (*this); }
-
   VesselPart partOf (const ProfilePoint& point) const override
   {
     const Eigen::Vector2d position = vertical (point.position), normal = vertical (point.normal);
@@ -273,7 +270,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<const WallProfile>
+std::shared_ptr<WallProfile>
 fitDish (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
 {
   const auto dish = std::make_shared<DishProfile> ();

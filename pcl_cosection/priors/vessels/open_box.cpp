@@ -187,8 +187,6 @@ private:
     return std::abs (away.x () * point.normal.y () - away.y () * point.normal.x ()) < along_wall;
   }
 
-  std::shared_ptr<ProfileSurface> clone () const override { return std::make_shared<OpenBox> (*this); }
-
   std::vector<Eigen::Matrix3d> turns () const override
   {
     const Eigen::Matrix3d over_x = Eigen::Matrix3d::Identity () - 2.0 * x_ * x_.transpose ();
@@ -227,7 +225,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<const ProfileSurface>
+std::shared_ptr<ProfileSurface>
 fitOpenBox (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces,
             const std::optional<Eigen::Vector4d>& plane)
 {

@@ -70,12 +70,10 @@ public:
     return findWall (points, cell_m) && findBottom (points, cell_m, plane);
   }
 
-  std::shared_ptr<const WallProfile> withoutFloor () const override
+  void openFloor () override
   {
-    auto tube = std::make_shared<VesselProfile> (*this);
-    tube->has_floor_ = false;
-    tube->floor_m_ = bottom_m_;
-    return tube;
+    has_floor_ = false;
+    floor_m_ = bottom_m_;
   }
 
   VesselPart partOf (const ProfilePoint& point) const override
@@ -320,7 +318,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<const WallProfile>
+std::shared_ptr<WallProfile>
 fitVessel (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
 {
   const auto vessel = std::make_shared<VesselProfile> ();

@@ -124,11 +124,9 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
     energy.problem.weighted_target[n] = static_cast<float> (weight * target);
   };
   parallelFor (0, grid.dims.z (), threadsForVoxels (options.threads, grid.size ()), [&] (int k) {
-    std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ())); // of a row
     for (int j = 0; j < grid.dims.y (); ++j)
     {
-      shape.region ().beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (),
-                              beyond_m.data ());
+      const std::vector<float> beyond_m = shape.region ().beyond (grid, j, k);
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);

@@ -42,8 +42,8 @@ public:
   /** \brief Thickness of the wall, metres. */
   double wallThickness () const { return wall_m_; }
 
-  /** \brief This wall as that of a tube, open at both ends. */
-  virtual std::shared_ptr<const WallProfile> withoutFloor () const = 0;
+  /** \brief Make this wall that of a tube, open at both ends; a dish, whose floor was seen, stays as it is. */
+  virtual void openFloor () {}
 
   /** \brief The part of the surface to which a point belongs, by its normal; the rim also by its height. */
   virtual VesselPart partOf (const ProfilePoint& point) const = 0;
@@ -69,15 +69,15 @@ protected:
  * \param[in] points of the whole surface
  * \param[in] cell_m height of the bands in which the sides are compared
  * \return null if it is not hollow, its walls differ in thickness, or both its ends are open */
-std::shared_ptr<const WallProfile> fitVessel (const std::vector<ProfilePoint>& points, double cell_m,
-                                              const std::optional<StandingPlane>& plane);
+std::shared_ptr<WallProfile> fitVessel (const std::vector<ProfilePoint>& points, double cell_m,
+                                        const std::optional<StandingPlane>& plane);
 
 /** \brief Fit the profile of a plate or bowl that showed only its inside, and perhaps the edge.
  * \param[in] points of the whole surface
  * \param[in] cell_m twice the length of the parts into which the profile is divided
  * \return null if there is no rising border around a horizontal floor, or if more than the inside and the edge was
  * seen */
-std::shared_ptr<const WallProfile> fitDish (const std::vector<ProfilePoint>& points, double cell_m,
-                                            const std::optional<StandingPlane>& plane);
+std::shared_ptr<WallProfile> fitDish (const std::vector<ProfilePoint>& points, double cell_m,
+                                      const std::optional<StandingPlane>& plane);
 
 } // namespace pcl::cosection

@@ -209,19 +209,18 @@ ObjectSegmentation
 segmentClusters (const std::vector<Eigen::Vector3f>& points, const ObjectSegmentationOptions& options)
 {
   options.validate ();
-  const auto cloud = pcl::make_shared<Points> ();
   std::vector<std::size_t> of; // indices of the points that have a place
   std::vector<Eigen::Vector3f> places;
   for (std::size_t i = 0; i < points.size (); ++i)
     if (points[i].allFinite ())
     {
-      cloud->emplace_back (points[i].x (), points[i].y (), points[i].z ());
       places.push_back (points[i]);
       of.push_back (i);
     }
   if (of.size () < least_points)
     throw DegenerateInput ("has " + std::to_string (of.size ()) + " readings, at least " +
                            std::to_string (least_points) + " are needed");
+  const Points::Ptr cloud = asCloud (places);
   std::vector<float> distances = neighbourDistances (places, spacing_neighbours, options.threads);
   const double spacing = upperMedian (distances);
   const double sheet = std::max (sheet_spacings * spacing, sheet_of_object * options.min_object_size_m);

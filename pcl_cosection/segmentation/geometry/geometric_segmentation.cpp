@@ -14,9 +14,7 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <string>
 
 namespace pcl::cosection {
 namespace {
@@ -83,12 +81,10 @@ numberBySize (ObjectSegmentation& found)
 void
 ObjectSegmentationOptions::validate () const
 {
-  require (std::isfinite (max_object_size_m) && max_object_size_m > 0.0,
-           "segmentation: max_object_size_m must be positive and finite");
+  require (isPositive (max_object_size_m), "segmentation: max_object_size_m must be positive and finite");
   require (min_object_size_m > 0.0 && min_object_size_m < max_object_size_m,
            "segmentation: min_object_size_m must be positive and less than max_object_size_m");
-  require (std::isfinite (min_support_area_m2) && min_support_area_m2 > 0.0,
-           "segmentation: min_support_area_m2 must be positive and finite");
+  require (isPositive (min_support_area_m2), "segmentation: min_support_area_m2 must be positive and finite");
   require (concave_angle_rad > 0.0 && concave_angle_rad < 1.58,
            "segmentation: concave_angle_rad must be between 0 and pi / 2");
 }
@@ -98,10 +94,7 @@ segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int heigh
                 const ObjectSegmentationOptions& options)
 {
   options.validate ();
-  if (width <= 0 || height <= 0 || points.size () != static_cast<std::size_t> (width) * height ||
-      points.size () > static_cast<std::size_t> (std::numeric_limits<int>::max ()))
-    throw InvalidArgument ("segmentation: " + std::to_string (points.size ()) + " points do not fill an image of " +
-                           std::to_string (width) + " x " + std::to_string (height));
+  requireImage ("segmentation", points.size (), width, height);
   const float pitch = columnPitch (points, width, height);
   if (pitch <= 0.0f)
     throw DegenerateInput ("the cloud has no two neighbouring readings in a row of its image, in front of the camera");

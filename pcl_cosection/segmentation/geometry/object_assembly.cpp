@@ -155,12 +155,13 @@ public:
     });
   }
 
-  /** \brief The inside of a hollow thing, which bends towards the sensor, and the wall before it. */
+  /** \brief The inside of a hollow thing, which bends towards the sensor, and the wall before it. Where the rim turns,
+   * they meet; what only stands before it does not touch it. */
   void joinHollows ()
   {
     joinBest ([&] (int inside, int outside, const Border& border) {
       const Piece& p = pieces_[inside];
-      if (p.convexity > hollow_convexity || p.turning < hollow_turning)
+      if (p.convexity > hollow_convexity || p.turning < hollow_turning || border.touching == 0)
         return (0);
       const int before = inside < outside ? border.second_front : border.first_front;
       const bool wall = 4.0f * static_cast<float> (before + border.touching) >

@@ -9,7 +9,6 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <optional>
 #include <string>
@@ -32,10 +31,8 @@ MotionSegmentationOptions::validate () const
 {
   require (window >= 1, "motion segmentation: window must be at least 1");
   require (min_pixels >= 1, "motion segmentation: min_pixels must be at least 1");
-  require (std::isfinite (significance) && significance > 0.0,
-           "motion segmentation: significance must be positive and finite");
-  require (std::isfinite (max_object_size_m) && max_object_size_m > 0.0,
-           "motion segmentation: max_object_size_m must be positive and finite");
+  require (isPositive (significance), "motion segmentation: significance must be positive and finite");
+  require (isPositive (max_object_size_m), "motion segmentation: max_object_size_m must be positive and finite");
   require (concave_angle_rad > 0.0 && concave_angle_rad < 1.58,
            "motion segmentation: concave_angle_rad must be between 0 and pi / 2");
 }
@@ -45,9 +42,7 @@ MotionFrame::validate () const
 {
   camera.validate ();
   const std::size_t pixels = static_cast<std::size_t> (camera.width) * camera.height;
-  require (points.size () == pixels, "motion segmentation: " + std::to_string (points.size ()) +
-                                         " points do not fill an image of " + std::to_string (camera.width) + " x " +
-                                         std::to_string (camera.height));
+  requireImage ("motion segmentation", points.size (), camera.width, camera.height);
   require (bodies.empty () || bodies.size () == pixels,
            "motion segmentation: there must be a body for each pixel, or none");
   require (expected_depth.empty () || expected_depth.size () == pixels,

@@ -107,8 +107,17 @@ InstanceLabels
 labelInstances (const std::vector<DetectedInstance>& instances, int width, int height, const ClassRoles& roles,
                 const Image<std::uint8_t>& readings)
 {
-  if (!readings.pixels.empty () && (readings.width != width || readings.height != height))
+  const auto isWhole = [] (const auto& image) {
+    return image.width >= 0 && image.height >= 0 &&
+           image.pixels.size () == static_cast<std::size_t> (image.width) * image.height;
+  };
+  if (width < 0 || height < 0)
+    throw InvalidArgument ("the size of an image must not be negative");
+  if (!readings.pixels.empty () && (readings.width != width || readings.height != height || !isWhole (readings)))
     throw InvalidArgument ("readings must be of the image's size");
+  if (!std::all_of (instances.begin (), instances.end (),
+                    [&] (const DetectedInstance& instance) { return isWhole (instance.mask); }))
+    throw InvalidArgument ("the mask of an instance must have as many pixels as its size says");
   std::vector<std::size_t> order (instances.size ());
   std::iota (order.begin (), order.end (), 0u);
   std::stable_sort (order.begin (), order.end (),

@@ -2,6 +2,7 @@
 #include "label_growth.h"
 
 #include "label_patches.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/view/support_plane.h"
 
 #include <algorithm>
@@ -118,9 +119,8 @@ public:
   bool onPlane (const GrowingLabel& label, std::size_t j) const
   {
     const Eigen::Vector3d p = cloud_.positions[j].cast<double> ();
-    return std::any_of (label.planes.begin (), label.planes.end (), [&] (const Eigen::Vector4d& plane) {
-      return plane.head<3> ().dot (p) + plane[3] <= label.near_plane_m;
-    });
+    return std::any_of (label.planes.begin (), label.planes.end (),
+                        [&] (const Eigen::Vector4d& plane) { return heightOver (plane, p) <= label.near_plane_m; });
   }
 
 private:

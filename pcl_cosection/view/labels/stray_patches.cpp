@@ -116,4 +116,32 @@ relabelStrayPatches (const PinholeCamera& camera, const Members& members, Sensor
   return moved;
 }
 
+std::map<std::uint16_t, std::array<std::size_t, 2>>
+relabelStrayPatches (const PinholeCamera& camera, const Image<float>& depth, Image<std::uint16_t>& mask)
+{
+  SensorCloud cloud;
+  cloud.width = mask.width;
+  cloud.height = mask.height;
+  cloud.labels.assign (mask.pixels.begin (), mask.pixels.end ());
+  for (int v = 0; v < mask.height; ++v)
+    for (int u = 0; u < mask.width; ++u)
+      cloud.positions.push_back (depth.at (u, v) > 0.0f
+                                     ? Eigen::Vector3f (camera.unproject (u, v, depth.at (u, v)).cast<float> ())
+                                     : Eigen::Vector3f::Constant (nan_value));
+  Members members = membersOf (cloud);
+  members.erase (ignored_label);
+  LabelledView without_views;
+  setWorkingRange (members, cloud, without_views);
+  const std::map<std::uint32_t, double> moved = relabelStrayPatches (camera, members, cloud);
+  std::copy (cloud.labels.begin (), cloud.labels.end (), mask.pixels.begin ());
+  std::map<std::uint16_t, std::array<std::size_t, 2>> counts;
+  for (const auto& [label, readings] : members)
+  {
+    const auto share = moved.find (label);
+    const double elsewhere = share == moved.end () ? 0.0 : share->second * static_cast<double> (readings.size ());
+    counts[static_cast<std::uint16_t> (label)] = {readings.size (), static_cast<std::size_t> (elsewhere + 0.5)};
+  }
+  return counts;
+}
+
 } // namespace pcl::cosection

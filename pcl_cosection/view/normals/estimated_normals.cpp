@@ -24,7 +24,6 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr int least_neighbours = 8; // for a normal; more where there are many points:
 constexpr int points_per_neighbour = 40;
 constexpr std::size_t dense_points = 20000;
@@ -86,15 +85,6 @@ thin (const std::vector<Eigen::Vector3f>& points)
   return thinned;
 }
 
-PointCloud<PointXYZ>::ConstPtr
-asCloud (const std::vector<Eigen::Vector3f>& positions)
-{
-  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const Eigen::Vector3f& p : positions)
-    points->emplace_back (p.x (), p.y (), p.z ());
-  return points;
-}
-
 /** \brief Estimated normals of any sign. */
 std::vector<Eigen::Vector3f>
 normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions, int most_neighbours)
@@ -119,6 +109,15 @@ normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& po
 }
 
 } // namespace
+
+PointCloud<PointXYZ>::Ptr
+asCloud (const std::vector<Eigen::Vector3f>& positions)
+{
+  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
+  for (const Eigen::Vector3f& p : positions)
+    points->emplace_back (p.x (), p.y (), p.z ());
+  return points;
+}
 
 void
 addNormals (const PcdViewOptions& options, const std::vector<std::size_t>& indices, SensorCloud& cloud,

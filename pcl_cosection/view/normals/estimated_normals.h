@@ -3,9 +3,17 @@
 
 #include "pcl_cosection/view/sensor_view.h"
 
+#include <pcl/cosection/common/export.h>
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
 #include <functional>
 
 namespace pcl::cosection {
+
+/** \brief Points as PCL's searches and models take them. */
+PCL_COSECTION_EXPORT PointCloud<PointXYZ>::Ptr asCloud (const std::vector<Eigen::Vector3f>& positions);
 
 /** \brief Give points without an order normals by pcl::NormalEstimationOMP, NaN where there is none.
  *

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/normals.h>
 
+#include "estimated_normals.h"
 #include "normal_agreement.h"
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/disjoint_sets.h"
@@ -62,11 +63,8 @@ struct Forest
 std::vector<Edge>
 neighbourGraph (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals, int neighbours)
 {
-  auto cloud = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const Eigen::Vector3f& p : points)
-    cloud->emplace_back (p.x (), p.y (), p.z ());
   search::KdTree<PointXYZ> tree;
-  tree.setInputCloud (cloud);
+  tree.setInputCloud (asCloud (points));
   std::vector<Edge> edges;
   pcl::Indices indices;
   std::vector<float> squared;

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "normal_agreement.h"
 
+#include "estimated_normals.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <pcl/point_types.h>
@@ -21,13 +23,10 @@ constexpr double least_flat = 0.1; // share of the points, to judge by
 double
 slantOfNormals (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
 {
-  auto cloud = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const Eigen::Vector3f& p : points)
-    cloud->emplace_back (p.x (), p.y (), p.z ());
   if (points.size () < static_cast<std::size_t> (neighbours))
     return 0.0;
   search::KdTree<PointXYZ> tree;
-  tree.setInputCloud (cloud);
+  tree.setInputCloud (asCloud (points));
   const std::size_t step = points.size () / judged_points + 1;
   std::size_t judged = 0, flat = 0;
   double sum = 0.0;

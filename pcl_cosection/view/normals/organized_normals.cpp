@@ -320,9 +320,8 @@ private:
 void
 OrganizedNormalsOptions::validate () const
 {
-  require (std::isfinite (radius_m) && radius_m > 0.0, "normals: radius_m must be positive and finite");
-  require (std::isfinite (working_range_m) && working_range_m > 0.0,
-           "normals: working_range_m must be positive and finite");
+  require (isPositive (radius_m), "normals: radius_m must be positive and finite");
+  require (isPositive (working_range_m), "normals: working_range_m must be positive and finite");
   require (min_radius_px >= 1, "normals: min_radius_px must be at least 1");
   require (max_radius_px >= min_radius_px && max_radius_px <= max_radius,
            "normals: max_radius_px must be between min_radius_px and " + std::to_string (max_radius));
@@ -336,10 +335,7 @@ computeOrganizedNormals (const std::vector<Eigen::Vector3f>& points, int width, 
                          const std::vector<std::uint32_t>& labels, const OrganizedNormalsOptions& options)
 {
   options.validate ();
-  if (width <= 0 || height <= 0 || points.size () != static_cast<std::size_t> (width) * height ||
-      points.size () > static_cast<std::size_t> (std::numeric_limits<int>::max ()))
-    throw InvalidArgument ("normals: " + std::to_string (points.size ()) + " points do not fill an image of " +
-                           std::to_string (width) + " x " + std::to_string (height));
+  requireImage ("normals", points.size (), width, height);
   if (!labels.empty () && labels.size () != points.size ())
     throw InvalidArgument ("normals: there must be as many labels as points, or none");
 

@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -58,7 +57,7 @@ template <int dimensions> struct Spread
 Eigen::Vector3f
 thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
 {
-  const Eigen::Vector3f none = Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ());
+  const Eigen::Vector3f none = Eigen::Vector3f::Constant (nan_value);
   const Eigen::Vector3f& here = cloud.positions[i];
   const double range = here.norm ();
   Spread<2> labelled; // pixels; what is behind, such as the other edge of a sheet, is no part of the band

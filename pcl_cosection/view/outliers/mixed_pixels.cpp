@@ -14,7 +14,6 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr int scattered_neighbours = 20;  // of which the farthest ...
 constexpr float scattered_factor = 4.0f;  // ... is so much farther than usual: the point shows no surface
 constexpr std::size_t least_points = 100; // of an object: as many remain if some are left out, ...

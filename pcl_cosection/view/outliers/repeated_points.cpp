@@ -124,7 +124,7 @@ leaveOutRepeated (int threads, SensorCloud& cloud)
       if (next != kept.end () && *next == i)
         ++next;
       else
-        cloud.positions[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+        cloud.positions[i].setConstant (nan_value);
   }
   return all == 0 ? 0.0 : static_cast<double> (all - left) / static_cast<double> (all);
 }

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <vector>
 
@@ -120,7 +119,7 @@ leaveOutSeparateParts (const PcdViewOptions& options, const std::vector<std::siz
       continue;
     for (std::size_t k = 0; k < usable.size (); ++k)
       if (beside[k])
-        cloud.normals[usable[k]].setConstant (std::numeric_limits<float>::quiet_NaN ());
+        cloud.normals[usable[k]].setConstant (nan_value);
     return static_cast<double> (count) / static_cast<double> (indices.size ());
   }
   return 0.0;

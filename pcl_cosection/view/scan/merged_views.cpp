@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -83,7 +82,7 @@ completeMerged (const std::string& path, const PcdViewOptions& options, SensorCl
     return false;
   bounds.push_back (cloud.positions.size ());
   SensorCloud whole = cloud;
-  whole.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  whole.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
   std::vector<DepthView> views;
   for (std::size_t v = 0; v + 1 < bounds.size (); ++v)
   {

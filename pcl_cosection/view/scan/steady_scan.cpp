@@ -2,6 +2,7 @@
 #include "steady_scan.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/view/range_image.h"
 
 #include <algorithm>
@@ -78,9 +79,7 @@ Face
 faceAlong (const Eigen::Vector3d& axis, double margin, const SensorCloud& cloud)
 {
   Face face;
-  face.T_points_sensor = Eigen::Isometry3d::Identity ();
-  face.T_points_sensor.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), axis)
-                                       .toRotationMatrix ();
+  face.T_points_sensor = lookingAlong (Eigen::Vector3d::Zero (), axis);
   const Eigen::Matrix3f R_sensor_points = face.T_points_sensor.linear ().transpose ().cast<float> ();
   for (const Eigen::Vector3f& position : cloud.positions)
   {

@@ -2,12 +2,12 @@
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/require.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -20,12 +20,6 @@ constexpr TriangleMesh::Colour colour_unknown = {128, 128, 128};
 
 constexpr double max_voxels = 1e12;      ///< more than any memory holds, and far from overflow
 constexpr double max_truncation_m = 1e9; ///< far from what stands for no distance
-
-bool
-isPositive (double value)
-{
-  return value > 0.0 && std::isfinite (value);
-}
 
 void
 checkGrid (const VoxelGrid& grid, const TsdfOptions& options)

@@ -5,6 +5,8 @@
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
 
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
@@ -63,4 +65,27 @@ prepareDataset (const std::string& name, const fs::path& folder)
   fs::remove_all (folder / "data");
   writeSequence (scene, (folder / "data").string ());
   return (folder / "data").string ();
+}
+
+SceneRecord
+recordOf (FusionResult result)
+{
+  SceneRecord record;
+  record.camera = result.camera;
+  record.background = std::move (result.scene.background);
+  for (ObjectResult& object : result.scene.objects)
+    record.objects.push_back (
+        {object.id, std::to_string (object.id), result.objects[object.id].trajectory, std::move (object.mesh)});
+  return record;
+}
+
+std::string
+format (const char* text, ...)
+{
+  char line[256];
+  std::va_list values;
+  va_start (values, text);
+  std::vsnprintf (line, sizeof line, text, values);
+  va_end (values);
+  return line;
 }

@@ -31,3 +31,9 @@ std::vector<std::string> scenesOrPresets (int argc, const char* const* argv);
 /** \brief A sequence's folder as it is; else the scene, a preset or a specification, simulated into \a folder / data.
  */
 std::string prepareDataset (const std::string& name, const std::filesystem::path& folder);
+
+/** \brief What a run found, as an evaluation takes it. */
+pcl::cosection::SceneRecord recordOf (pcl::cosection::FusionResult result);
+
+/** \brief A line of text, as std::printf () would write it. */
+std::string format (const char* text, ...);

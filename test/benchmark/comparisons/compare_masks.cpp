@@ -13,8 +13,6 @@
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <set>
@@ -27,17 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double clear_view_share = 1600.0 / (640.0 * 480.0); // of the image: smaller views of an object do not count
-
-std::string
-format (const char* text, ...)
-{
-  char line[256];
-  std::va_list values;
-  va_start (values, text);
-  std::vsnprintf (line, sizeof line, text, values);
-  va_end (values);
-  return line;
-}
 
 /** \brief True masks of every tenth frame. */
 class TrueMasks : public FrameSegmenter
@@ -158,15 +145,8 @@ complete (const BenchmarkDataset& data, std::shared_ptr<FrameSegmenter> segmente
 {
   TrackedSequence sequence (data.images);
   sequence.segmenter = std::move (segmenter);
-  FusionResult result = SequenceFusion (sequence).run ();
-  SceneRecord estimate;
-  estimate.camera = result.camera;
-  estimate.background = std::move (result.scene.background);
-  for (ObjectResult& object : result.scene.objects)
-    estimate.objects.push_back (
-        {object.id, std::to_string (object.id), result.objects[object.id].trajectory, std::move (object.mesh)});
-  const std::size_t objects = estimate.objects.size ();
-  return {evaluateRun (data.truth, estimate), objects};
+  const SceneRecord estimate = recordOf (SequenceFusion (sequence).run ());
+  return {evaluateRun (data.truth, estimate), estimate.objects.size ()};
 }
 
 const ObjectEvaluation*

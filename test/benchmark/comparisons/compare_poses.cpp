@@ -13,8 +13,6 @@
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 
@@ -24,17 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t mask_every = 10; // frames
-
-std::string
-format (const char* text, ...)
-{
-  char line[256];
-  std::va_list values;
-  va_start (values, text);
-  std::vsnprintf (line, sizeof line, text, values);
-  va_end (values);
-  return line;
-}
 
 /** \brief Masks of a few frames; an instance has another number in each. */
 void
@@ -53,19 +40,6 @@ writeSparseMasks (const BenchmarkDataset& data, const fs::path& folder)
         pixel = static_cast<std::uint16_t> (1 + (pixel * 37 + n * 11) % 211); // differs between numbers up to 210
     saveMaskImage (*mask, (folder / (std::to_string (stamps[n]) + ".png")).string ());
   }
-}
-
-RunEvaluation
-evaluate (const SequenceFusion& fusion, const SceneRecord& truth)
-{
-  FusionResult result = fusion.run ();
-  SceneRecord estimate;
-  estimate.camera = result.camera;
-  estimate.background = std::move (result.scene.background);
-  for (ObjectResult& object : result.scene.objects)
-    estimate.objects.push_back (
-        {object.id, std::to_string (object.id), result.objects[object.id].trajectory, std::move (object.mesh)});
-  return evaluateRun (truth, estimate);
 }
 
 std::string
@@ -110,8 +84,9 @@ runScene (const std::string& name, const fs::path& output)
     std::cerr << name << ": " << warning << '\n';
   writeSparseMasks (data, folder / "masks");
   const MaskSequence masks ((folder / "masks").string (), data.images);
-  const RunEvaluation given = evaluate (SequenceFusion (data.known), data.truth);
-  const RunEvaluation tracked = evaluate (SequenceFusion (TrackedSequence (data.images, &masks)), data.truth);
+  const RunEvaluation given = evaluateRun (data.truth, recordOf (SequenceFusion (data.known).run ()));
+  const RunEvaluation tracked = evaluateRun (data.truth,
+                                             recordOf (SequenceFusion (TrackedSequence (data.images, &masks)).run ()));
 
   std::string text = "### " + sceneName (name) +
                      "\n\n| accuracy / completeness (mm) / F@1cm | given | tracked | worse by | ATE, mm | frames |\n" +

@@ -78,7 +78,7 @@ measure (const Scene& scene, const fs::path& folder, const std::map<int, std::st
   CompletionLog log (scene.objects.size (), {});
   const CompletionMode mode = CompletionMode::Once;
   const std::vector<Observation> observations = observeObjects (scene, mode, state, log);
-  const std::vector<SupportPlanes> support = findObjectPlanes (scene, observations, state, log);
+  const std::vector<SupportPlanes> support = findObjectPlanes (scene, observations, log);
   const std::vector<SceneObject> objects = placeObjects (scene, observations, support, mode, state, log);
   BackgroundBodies bodies = placeBackground (scene, objects, mode, bytesInUse (scene, state, observations), state, log);
   gatherEvidence (scene, mode, objects, bodies, log);

@@ -4,6 +4,7 @@
 #include "completion/mesh_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl::cosection::test {
 namespace {
@@ -111,6 +112,31 @@ complete (const RenderedView& seen, const CoSectionOptions& options)
     else
       scene.addObject ({label, points, {}});
   return scene.reconstruct ();
+}
+
+FieldDifference
+differenceNearSurface (const SignedDistanceField& a, const SignedDistanceField& b, bool near_data)
+{
+  constexpr double near_vox = 2.0;
+  const VoxelGrid& grid = a.grid;
+  double sum = 0.0;
+  FieldDifference difference;
+  for (int k = 0; k < grid.dims.z (); ++k)
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const std::size_t n = grid.index (i, j, k);
+        const double u = a.values[n];
+        const auto v = near_data && !a.supported[n] ? std::nullopt : b.sample (grid.center (i, j, k));
+        if (!v || std::min (std::abs (u), std::abs (static_cast<double> (*v))) > near_vox * grid.voxel_size_m)
+          continue;
+        const double d = (u - *v) / grid.voxel_size_m;
+        sum += d * d;
+        ++difference.voxels;
+      }
+  if (difference.voxels > 0)
+    difference.rms_vox = std::sqrt (sum / static_cast<double> (difference.voxels));
+  return difference;
 }
 
 } // namespace pcl::cosection::test

@@ -48,4 +48,15 @@ double effectOfMotion (Shape shape, double voxel_size_m, const Eigen::Isometry3d
 /** \brief Complete everything seen in a view: label 0 is the background, others are objects. */
 SceneResult complete (const RenderedView& seen, const CoSectionOptions& options);
 
+struct FieldDifference
+{
+  double rms_vox = 0.0;   ///< root mean square, voxels of the first field
+  std::size_t voxels = 0; ///< that were compared
+};
+
+/** \brief How two fields differ where either is within two voxels of its surface; the second may have another grid.
+ * \param[in] near_data only where the first is evidence */
+FieldDifference differenceNearSurface (const SignedDistanceField& a, const SignedDistanceField& b,
+                                       bool near_data = false);
+
 } // namespace pcl::cosection::test

@@ -2,7 +2,7 @@
 
 // CoSection::update () solves only the changed parts of a whole background, with the result of a fresh run.
 
-#include "completion/analytic_scene.h"
+#include "completion_scene.h"
 
 #include <pcl/cosection/surface/co_section.h>
 
@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <optional>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -23,28 +22,13 @@ constexpr double background_voxel_m = 0.02;
 constexpr double half_length_m = 1.6;
 constexpr double half_width_m = 0.4;
 
-/** \brief Root mean square difference near the surface and near data, voxels; the second may have another grid. */
+/** \brief The difference near the surface and near data, voxels. */
 double
 differenceNearData (const SignedDistanceField& a, const SignedDistanceField& b)
 {
-  constexpr double near_vox = 2.0;
-  const VoxelGrid& grid = a.grid;
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (int k = 0; k < grid.dims.z (); ++k)
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-      {
-        const std::size_t n = grid.index (i, j, k);
-        const auto v = a.supported[n] ? b.sample (grid.center (i, j, k)) : std::nullopt;
-        if (!v || std::min (std::abs (a.values[n]), std::abs (static_cast<float> (*v))) > near_vox * background_voxel_m)
-          continue;
-        const double d = (a.values[n] - *v) / background_voxel_m;
-        sum += d * d;
-        ++count;
-      }
-  EXPECT_GT (count, 10000u);
-  return std::sqrt (sum / static_cast<double> (std::max<std::size_t> (1, count)));
+  const FieldDifference difference = differenceNearSurface (a, b, true);
+  EXPECT_GT (difference.voxels, 10000u);
+  return difference.rms_vox;
 }
 
 void

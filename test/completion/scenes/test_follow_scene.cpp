@@ -16,29 +16,6 @@ using namespace pcl::cosection::test;
 
 namespace {
 
-/** \brief Root mean square difference of two fields where either is near its surface, voxels of the first. */
-double
-differenceNearSurface (const SignedDistanceField& a, const SignedDistanceField& b)
-{
-  constexpr double near_vox = 2.0;
-  const VoxelGrid& grid = a.grid;
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (int k = 0; k < grid.dims.z (); ++k)
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-      {
-        const double u = a.values[grid.index (i, j, k)];
-        const auto v = b.sample (grid.center (i, j, k));
-        if (!v || std::min (std::abs (u), std::abs (static_cast<double> (*v))) > near_vox * grid.voxel_size_m)
-          continue;
-        const double d = (u - *v) / grid.voxel_size_m;
-        sum += d * d;
-        ++count;
-      }
-  return count == 0 ? 0.0 : std::sqrt (sum / static_cast<double> (count));
-}
-
 using Poses = std::map<int, Eigen::Isometry3d>;
 
 /** \brief Add a rendered view to a scene; points of objects with a pose are in the objects' frames. */
@@ -77,7 +54,8 @@ expectSameObjects (const SceneResult& followed, const SceneResult& fresh)
   {
     ASSERT_EQ (followed.objects[o].error, "");
     ASSERT_EQ (fresh.objects[o].error, "");
-    const double rms = differenceNearSurface (*fresh.objects[o].signed_distance, *followed.objects[o].signed_distance);
+    const double rms = differenceNearSurface (*fresh.objects[o].signed_distance, *followed.objects[o].signed_distance)
+                           .rms_vox;
     std::printf ("object %d: root mean square difference %.3f voxels near the surface\n", fresh.objects[o].id, rms);
     EXPECT_LT (rms, 0.1);
   }
@@ -115,7 +93,8 @@ TEST_P (FollowScene, UpdatesGiveWhatAFreshRunGives)
   ASSERT_EQ (followed.background_pieces.size (), 1u);
   const SceneResult fresh = task.reconstruct ();
   EXPECT_LT (differenceNearSurface (*fresh.background_pieces.at (0).signed_distance,
-                                    *followed.background_pieces[0].signed_distance),
+                                    *followed.background_pieces[0].signed_distance)
+                 .rms_vox,
              0.1);
 }
 

@@ -7,8 +7,6 @@
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 using namespace pcl::cosection;
 
@@ -103,13 +101,6 @@ relativeObj ()
           "usemtl red\ns off\nf -4/1/1 -2/1/1 -3/1/1\nf 1//1 2//1 4//1\nf 1/1 4/1 \\\n  3/1\nf 2 3 4\nl 1 2\np 1\n");
 }
 
-std::string
-read (const std::string& path)
-{
-  std::ifstream file (path, std::ios::binary);
-  return {std::istreambuf_iterator<char> (file), {}};
-}
-
 } // namespace
 
 std::vector<MeshSeed>
@@ -124,7 +115,7 @@ meshSeeds ()
       {".off", test::tetrahedronOff ()},
       {".off", "STCNOFF 3 1 0\n0 0 0 0 0 1 0 0 0 1 0 0\n"
                "1 0 0 0 0 1 0 0 0 1 0 0\n0 1 0 0 0 1 0 0 0 1 0 0\n3 0 1 2 9\n"}};
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const test::Polygons& shape : {pyramids (), sheets ()})
   {
     for (const test::VtkFile file : test::vtkFiles ())
@@ -132,7 +123,7 @@ meshSeeds ()
       const std::string extension = test::extensionOf (file);
       const std::string path = folder.file ("seed" + extension);
       test::writeWithVtk (shape, file, path);
-      seeds.push_back ({extension, read (path)});
+      seeds.push_back ({extension, test::readFile (path)});
     }
     const TriangleMesh mesh = loadMesh (folder.file ("seed.ply"));
     for (const std::string extension : {".ply", ".stl", ".obj"})
@@ -140,7 +131,7 @@ meshSeeds ()
       {
         const std::string path = folder.file ("saved" + extension);
         saveMesh (mesh, path, origin);
-        seeds.push_back ({extension, read (path)});
+        seeds.push_back ({extension, test::readFile (path)});
       }
   }
   return (seeds);

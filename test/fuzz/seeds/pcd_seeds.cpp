@@ -2,6 +2,7 @@
 #include "pcd_seeds.h"
 
 #include "ply_file.h"
+#include "test/common/replaced.h"
 
 #include <pcl/io/lzf.h>
 
@@ -17,6 +18,8 @@
 #include <utility>
 
 namespace fuzz {
+using pcl::cosection::test::replaced;
+
 namespace {
 
 std::string
@@ -282,12 +285,6 @@ plySeeds ()
     for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
       seeds.push_back (plyFile (file, format));
   return (seeds);
-}
-
-std::string
-replaced (std::string text, const std::string& from, const std::string& to)
-{
-  return (text.replace (text.find (from), from.size (), to));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 // What pcl_cosection_export writes for planners beside rigid bodies: points on objects, and their signed distances.
 
+#include "common/message_of.h"
 #include "common/small_meshes.h"
 #include "common/temporary_folder.h"
 #include "export_command_line.h"

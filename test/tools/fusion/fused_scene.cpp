@@ -43,20 +43,14 @@ int
 FusedScene::view (const Words& arguments, const std::function<void ()>& prepare)
 {
   const auto without_display = [] { unsetenv ("DISPLAY"); };
-  ToolRun tool (arguments, file (""), prepare ? prepare : without_display, PCL_COSECTION_VIEWER);
-  const int status = tool.wait ();
-  output_ = tool.output ();
-  errors_ = tool.errors ();
-  return (status);
+  return (run (arguments, prepare ? prepare : without_display, PCL_COSECTION_VIEWER));
 }
 
 void
 FusedScene::expectNoView (const Words& arguments, int status, const std::string& part)
 {
   EXPECT_EQ (view (arguments), status) << part << '\n' << errors_;
-  EXPECT_EQ (errors_.rfind ("pcl_cosection_viewer: error: ", 0), 0u) << errors_;
-  EXPECT_EQ (errors_.find ('\n'), errors_.size () - 1) << errors_;
-  EXPECT_NE (errors_.find (part), std::string::npos) << errors_;
+  expectErrorLine (errors_, "pcl_cosection_viewer", part);
   EXPECT_EQ (output_, "");
 }
 

@@ -1,24 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "fusion_scene.h"
 
+#include "fusion/ball_and_box.h"
+
 #include <memory>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection::test;
 
 namespace {
-
-const char* const coarse_scene = R"({
-  "frames": 12,
-  "camera": {"width": 120, "height": 90, "keys": [
-    {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
-    {"time": 0.4, "position": [0.3, -0.7, 0.5], "look_at": [0, 0, 0.05]}]},
-  "background": {"parts": [{"type": "plane", "extent": 1}]},
-  "objects": [
-    {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "colour": [200, 60, 40],
-     "keys": [{"time": 0, "position": [-0.15, 0, 0.1]}, {"time": 0.4, "position": [-0.15, 0.1, 0.1]}]},
-    {"name": "box", "shape": {"type": "box", "size": [0.16, 0.12, 0.1]}, "keys": [{"position": [0.12, 0, 0.05]}]}]
-})";
 
 std::unique_ptr<TemporaryFolder> rendered; // lives as long as the program
 
@@ -30,12 +20,12 @@ FusionScene::SetUpTestSuite ()
   if (rendered)
     return;
   rendered = std::make_unique<TemporaryFolder> ();
-  std::ofstream (rendered->file ("scene.json")) << coarse_scene;
+  std::ofstream (rendered->file ("scene.json")) << sceneJson (12, 120, 90, 0.4);
   ToolRun run ({"scene.json", "sim"}, rendered->file (""), {}, PCL_COSECTION_SIMULATE);
   ASSERT_EQ (run.wait (), 0) << run.errors ();
 }
 
-FusionScene::FusionScene ()
+FusionScene::FusionScene () : ToolTest (PCL_COSECTION_FUSION)
 {
   fs::copy (rendered->file ("sim"), file ("sim"), fs::copy_options::recursive);
 }
@@ -47,16 +37,6 @@ FusionScene::known (Words more)
                  "1=sim/gt-ball-1.txt", "--background-voxel-size", "0.03"};
   words.insert (words.end (), more.begin (), more.end ());
   return (words);
-}
-
-int
-FusionScene::run (const Words& arguments, const std::function<void ()>& prepare)
-{
-  ToolRun tool (arguments, file (""), prepare, PCL_COSECTION_FUSION);
-  const int status = tool.wait ();
-  output_ = tool.output ();
-  errors_ = tool.errors ();
-  return (status);
 }
 
 void

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "common/temporary_folder.h"
 #include "tools/tool_run.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@
 
 /** \brief A folder with the sequence sim: a ball that rolls past a box at rest, twelve frames; rendered once for all
  * tests. pcl_cosection_fusion runs in that folder. */
-class FusionScene : public testing::Test
+class FusionScene : public ToolTest
 {
 protected:
   using Words = std::vector<std::string>;
@@ -26,19 +25,13 @@ protected:
   /** \brief What goes with the sequence: its poses and masks. */
   static Words known (Words more = {});
 
-  /** \brief Run the program. \return the exit status */
-  int run (const Words& arguments, const std::function<void ()>& prepare = {});
-
   /** \brief It fails with a line that has \a part in it, at its end. */
   void expectFailure (const Words& arguments, int status, const std::string& part);
 
-  std::string file (const std::string& name) const { return (folder_.file (name)); }
+  std::string file (const std::string& name) const { return (path (name)); }
 
   bool exists (const std::string& name) const { return (std::filesystem::exists (file (name))); }
 
   /** \brief Names of all files below a folder, sorted. */
   Words filesIn (const std::string& folder) const;
-
-  const pcl::cosection::test::TemporaryFolder folder_;
-  std::string output_, errors_;
 };

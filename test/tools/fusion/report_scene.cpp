@@ -64,20 +64,14 @@ ReportScene::makeOtherRun ()
 int
 ReportScene::report (const Words& arguments, const std::function<void ()>& prepare)
 {
-  ToolRun tool (arguments, file (""), prepare, PCL_COSECTION_REPORT);
-  const int status = tool.wait ();
-  output_ = tool.output ();
-  errors_ = tool.errors ();
-  return (status);
+  return (run (arguments, prepare, PCL_COSECTION_REPORT));
 }
 
 void
 ReportScene::expectNoReport (const Words& arguments, int status, const std::string& part)
 {
   EXPECT_EQ (report (arguments), status) << part << '\n' << errors_;
-  EXPECT_EQ (errors_.rfind ("pcl_cosection_report: error: ", 0), 0u) << errors_;
-  EXPECT_EQ (errors_.find ('\n'), errors_.size () - 1) << errors_;
-  EXPECT_NE (errors_.find (part), std::string::npos) << errors_;
+  expectErrorLine (errors_, "pcl_cosection_report", part);
   EXPECT_FALSE (exists ("report.html"));
 }
 

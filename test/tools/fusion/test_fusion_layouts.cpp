@@ -23,8 +23,6 @@ namespace {
 class FusionLayouts : public FusionScene
 {
 protected:
-  nlohmann::json json (const std::string& name) const { return (nlohmann::json::parse (readFile (file (name)))); }
-
   double volume (const std::string& name) const { return (computeMassProperties (loadMesh (file (name))).volume_m3); }
 
   /** \brief Calls change (number of the frame, its depths, its mask) for all frames. */

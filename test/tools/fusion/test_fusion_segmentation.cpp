@@ -2,6 +2,7 @@
 
 // pcl_cosection_fusion without masks, and with pixels that it is not to read.
 
+#include "fusion/ball_and_box.h"
 #include "fusion_scene.h"
 
 #include "pcl_cosection/io/image_io.h"
@@ -13,33 +14,17 @@ using namespace pcl::cosection::test;
 
 namespace {
 
-const char* const fine_scene = R"({
-  "frames": 22,
-  "camera": {"width": 240, "height": 180, "keys": [
-    {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
-    {"time": 0.7, "position": [0.3, -0.7, 0.5], "look_at": [0, 0, 0.05]}]},
-  "background": {"parts": [{"type": "plane", "extent": 1}]},
-  "objects": [
-    {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "colour": [200, 60, 40],
-     "keys": [{"time": 0, "position": [-0.15, 0, 0.1]}, {"time": 0.7, "position": [-0.15, 0.1, 0.1]}]},
-    {"name": "box", "shape": {"type": "box", "size": [0.16, 0.12, 0.1]}, "keys": [{"position": [0.12, 0, 0.05]}]}]
-})";
-
-class FusionSegmentation : public FusionScene
-{
-protected:
-  nlohmann::json summary () const { return (nlohmann::json::parse (readFile (file ("out/summary.json")))); }
-};
+using FusionSegmentation = FusionScene;
 
 } // namespace
 
 TEST_F (FusionSegmentation, ObjectsAreFoundAndCompleted)
 {
-  writeFile (file ("scene.json"), fine_scene); // that of the other tests is too coarse
+  writeFile (file ("scene.json"), sceneJson (22, 240, 180, 0.7)); // that of the other tests is too coarse
   ToolRun simulation ({"scene.json", "fine"}, file (""), {}, PCL_COSECTION_SIMULATE);
   ASSERT_EQ (simulation.wait (), 0) << simulation.errors ();
   ASSERT_EQ (run ({"--segmentation", "geometric", "fine", "out"}), 0) << errors_;
-  const nlohmann::json result = summary ();
+  const nlohmann::json result = json ("out/summary.json");
   EXPECT_EQ (result["parameters"]["segmentation"], "geometric");
   ASSERT_EQ (result["objects"].size (), 2u); // the ball and the box
   for (const auto& object : result["objects"])
@@ -76,7 +61,7 @@ TEST_F (FusionSegmentation, IgnoredPixelsAreNotCompleted)
                           "sim", "out"})),
              0)
       << errors_;
-  const nlohmann::json result = summary ();
+  const nlohmann::json result = json ("out/summary.json");
   ASSERT_EQ (result["parameters"]["ignored_regions"].size (), 2u);
   ASSERT_EQ (result["objects"].size (), 1u) << result["objects"]; // the ball is in the left half of the images
   EXPECT_EQ (result["objects"][0]["id"], 2);

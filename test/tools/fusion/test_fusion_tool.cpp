@@ -27,8 +27,6 @@ namespace {
 class FusionTool : public FusionScene
 {
 protected:
-  nlohmann::json json (const std::string& name) const { return (nlohmann::json::parse (readFile (file (name)))); }
-
   /** \brief Every file that has its name can be read; others are temporary. */
   void expectWhole (const std::string& folder) const
   {

@@ -204,8 +204,7 @@ TEST_F (FusionToolErrors, OutputsThatCannotBe)
 TEST_F (FusionToolErrors, AFailureIsInTheSummary)
 {
   expectFailure ({"--camera-trajectory", "no.txt", "--json", "s.json", "sim", "out"}, 1, "no.txt");
-  EXPECT_NE (nlohmann::json::parse (readFile (file ("s.json")))["error"].get<std::string> ().find ("no.txt"),
-             std::string::npos);
+  EXPECT_NE (json ("s.json")["error"].get<std::string> ().find ("no.txt"), std::string::npos);
   changeDepths ([] (const std::string& path) { writeFile (path, "damaged"); });
   expectFailure (known ({"--json", "s.json", "sim", "out"}), 1,
                  "no frame can be read: sim/depth_noise/Depth0000.png: is not an image");
@@ -230,7 +229,7 @@ TEST_F (FusionToolErrors, DamagedFramesAreSkippedAndTold)
         "Depth0003.png: is empty", "Depth0005.png: has 20 x 20 pixels, but sim/calibration.txt has 120 x 90 pixels",
         "frames are missing after", "Mask0001.png: is damaged"})
     EXPECT_NE (errors_.find (part), std::string::npos) << part << '\n' << errors_;
-  const auto summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
+  const auto summary = json ("out/summary.json");
   EXPECT_EQ (summary["frames"], 8);
   EXPECT_EQ (summary["objects"].size (), 2u);
 }
@@ -297,7 +296,7 @@ TEST_F (FusionToolErrors, OneBadObjectDoesNotLoseTheRest)
                  "object 2: voxel size 0.15 m is larger than the object");
   EXPECT_TRUE (exists ("out/mesh/background.ply"));
   EXPECT_TRUE (exists ("out/mesh/object_1.ply"));
-  const auto summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
+  const auto summary = json ("out/summary.json");
   ASSERT_EQ (summary["failed"].size (), 1u);
   EXPECT_EQ (summary["failed"][0]["id"], 2);
   expectFailure (camera ("sim/gt-cam-0.txt", {"--max-memory", "5M", "sim", "out"}), 1, "nothing could be completed; ");

@@ -25,8 +25,6 @@ namespace {
 class Report : public ReportScene
 {
 protected:
-  nlohmann::json json (const std::string& name) const { return (nlohmann::json::parse (readFile (file (name)))); }
-
   /** \brief What pcl_cosection_evaluate says of a run. */
   nlohmann::json evaluation (const std::string& run) const
   {

@@ -33,7 +33,7 @@ protected:
   Words requests () const
   {
     Words urls;
-    const nlohmann::json log = nlohmann::json::parse (readFile (file ("net.json")));
+    const nlohmann::json log = json ("net.json");
     for (const nlohmann::json& event : log["events"])
       if (event.contains ("params") && event["params"].contains ("initiator") &&
           event["params"]["initiator"] != "not an origin")
@@ -230,7 +230,7 @@ TEST_F (ReportBrowser, WithoutWebGlThereIsASentence)
 
 TEST_F (ReportBrowser, HostileTextsDoNothing)
 {
-  nlohmann::json summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
+  nlohmann::json summary = json ("out/summary.json");
   summary["warnings"] = {"<script>document.title = 'changed'</script>",
                          "<img src=x onerror=\"document.title='changed'\">"};
   summary["parameters"]["dataset"] = "</title><script>document.title = 'changed'</script>";

@@ -4,6 +4,7 @@
 
 #ifdef PCL_COSECTION_CHROMIUM
 
+#include "base64.h"
 #include "browser.h"
 #include "common/temporary_folder.h"
 
@@ -41,27 +42,6 @@ protected:
   }
 
   const TemporaryFolder folder_;
-
-private:
-  static std::string fromBase64 (const std::string& letters)
-  {
-    static const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    std::uint32_t group = 0;
-    int bits = 0;
-    for (const char letter : letters)
-    {
-      if (letter == '=')
-        break;
-      group = (group << 6) | static_cast<std::uint32_t> (alphabet.find (letter));
-      bits += 6;
-      if (bits < 8)
-        continue;
-      bits -= 8;
-      bytes += static_cast<char> (group >> bits & 0xff);
-    }
-    return (bytes);
-  }
 };
 
 } // namespace

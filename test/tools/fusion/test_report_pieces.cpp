@@ -2,6 +2,7 @@
 
 // What a report is made of: texts that end no script, meshes as letters, colours, sizes.
 
+#include "base64.h"
 #include "common/temporary_folder.h"
 #include "embedding.h"
 #include "report_content.h"
@@ -18,27 +19,6 @@
 using namespace pcl::cosection;
 
 namespace {
-
-std::vector<std::uint8_t>
-fromBase64 (const std::string& letters)
-{
-  static const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char letter : letters)
-  {
-    if (letter == '=')
-      break;
-    group = (group << 6) | static_cast<std::uint32_t> (alphabet.find (letter));
-    bits += 6;
-    if (bits < 8)
-      continue;
-    bits -= 8;
-    bytes.push_back (static_cast<std::uint8_t> (group >> bits));
-  }
-  return (bytes);
-}
 
 std::uint32_t
 numberAt (const std::vector<std::uint8_t>& bytes, std::size_t place, std::size_t size)

@@ -100,7 +100,7 @@ TEST_F (Viewer, CompletedViewsAreShown)
   EXPECT_NE (errors_.find ("has no surfaces as they were seen"), std::string::npos) << errors_;
   expectNoView ({"--screenshot", "table.png", "--mode", "points", "--dataset", "sim", "table"}, 1,
                 "there are no points to show");
-  const nlohmann::json summary = nlohmann::json::parse (readFile (file ("table/summary.json")));
+  const nlohmann::json summary = json ("table/summary.json");
   EXPECT_EQ (summary["views"][0]["input"], 0);
   EXPECT_EQ (summary["views"][0]["camera"]["width"], 160);
   fs::remove (file ("table/summary.json"));
@@ -215,7 +215,7 @@ TEST_F (Viewer, AViewpointIsTaken)
 
 TEST_F (Viewer, TheSummaryTellsTheCamera)
 {
-  const nlohmann::json summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
+  const nlohmann::json summary = json ("out/summary.json");
   EXPECT_EQ (summary["camera"]["width"], 120);
   EXPECT_EQ (summary["camera"]["height"], 90);
   EXPECT_GT (summary["camera"]["fx"], 50.0);

@@ -159,6 +159,7 @@ private:
 
   SequenceFormat format_ = SequenceFormat::Detect;
   double depth_scale_ = 1000.0;
+  bool scale_is_assumed_ = false; // that of the TUM benchmark, though another camera may have written the images
   double period_ = 1.0;
   PinholeCamera camera_;
   std::string size_source_; // for messages
