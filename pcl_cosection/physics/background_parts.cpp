@@ -2,15 +2,19 @@
 #include "pcl_cosection/physics/background_parts.h"
 
 #include "pcl_cosection/common/lattice_cells.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/part_contacts.h"
+#include "pcl_cosection/physics/resting.h"
 #include "pcl_cosection/physics/visual_mesh.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -24,18 +28,22 @@ constexpr double first_cell_voxels = 10.0; // edge of a patch
 constexpr double growth = 1.5;             // of patches, while there are too many
 constexpr std::size_t most_patches = 200;
 
-/** \brief Triangles that are not near planes, nor behind them, and have numbers as coordinates. */
+/** \brief Whether a place is neither near planes nor behind them, and has numbers as coordinates. */
+bool
+isBeside (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p, double reach_m)
+{
+  return p.allFinite () && std::none_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
+           return heightOver (plane, p) < reach_m;
+         });
+}
+
+/** \brief Triangles of which all corners are beside the planes. */
 std::vector<TriangleMesh::Triangle>
 remainder (const TriangleMesh& mesh, const std::vector<Eigen::Vector4d>& planes, double reach_m)
 {
   std::vector<bool> is_left_out (mesh.vertices.size (), false);
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
-  {
-    is_left_out[v] = !mesh.vertices[v].allFinite ();
-    for (const Eigen::Vector4d& plane : planes)
-      if (plane.head<3> ().dot (mesh.vertices[v].cast<double> ()) + plane[3] < reach_m)
-        is_left_out[v] = true;
-  }
+    is_left_out[v] = !isBeside (planes, mesh.vertices[v].cast<double> (), reach_m);
   std::vector<TriangleMesh::Triangle> rest;
   for (const TriangleMesh::Triangle& t : mesh.triangles)
     if (!is_left_out[t[0]] && !is_left_out[t[1]] && !is_left_out[t[2]])
@@ -89,6 +97,35 @@ clearOf (const std::vector<BodyParts>& objects, ConvexHull hull, double toleranc
 }
 
 } // namespace
+
+std::vector<Eigen::Vector3d>
+backgroundBesidePlanes (const CompletedScene& scene, const PhysicalScene& result,
+                        const std::vector<Eigen::Vector4d>& planes)
+{
+  const Eigen::Isometry3d T_scene_world = result.T_result_scene.inverse ();
+  const double reach_m = plane_voxels * largestVoxelSizeOf (scene);
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& vertex : scene.background.vertices)
+    if (const Eigen::Vector3d p = T_scene_world * vertex.cast<double> (); isBeside (planes, p, reach_m))
+      points.push_back (p);
+  return points;
+}
+
+bool
+touchesSurroundings (const CollisionSource& source, const std::vector<Eigen::Vector4d>& planes,
+                     const Eigen::Vector3d& up, const std::vector<Eigen::Vector3d>& background)
+{
+  const double reach_m = touching_voxels * source.voxel_size_m;
+  if (std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
+        return !isLevel (plane, up) && std::abs (lowestOver (plane, source.mesh)) < reach_m;
+      }))
+    return true;
+  const Eigen::AlignedBox3d box = vertexBox (source.mesh);
+  const SurfaceDistance surface (source.mesh);
+  return std::any_of (background.begin (), background.end (), [&] (const Eigen::Vector3d& p) {
+    return box.exteriorDistance (p) < reach_m && (surface.nearest (p).point - p).norm () < reach_m;
+  });
+}
 
 void
 addBackground (const CompletedScene& scene, const std::vector<Eigen::Vector4d>& planes,

@@ -88,7 +88,11 @@ cutApart (const std::vector<CollisionSource>& sources, const std::vector<Eigen::
             plane << found.normal, -found.offset;
             ConvexHull rest_of_first = cutBehind (first, plane), rest_of_second = cutBehind (second, -plane);
             if (rest_of_first.empty () || rest_of_second.empty ())
+            {
+              for (const std::size_t body : {a, b})
+                bodies[body].overlap_m = std::max (bodies[body].overlap_m, found.depth_m);
               continue;
+            }
             first = std::move (rest_of_first);
             second = std::move (rest_of_second);
             any = true;

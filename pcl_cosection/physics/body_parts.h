@@ -24,6 +24,7 @@ struct BodyParts
 {
   std::vector<ConvexHull> hulls;
   bool touches_others = false; ///< another body is within two voxels
+  double overlap_m = 0.0;      ///< with another body's, where no cut leaves something of both
 };
 
 /** \brief Divide all bodies into convex parts that hardly overlap those of others. */

@@ -12,6 +12,14 @@ namespace pcl::cosection {
 /** \brief The height of the lowest vertex over a plane n.x + d = 0, unit n. */
 double lowestOver (const Eigen::Vector4d& plane, const TriangleMesh& mesh);
 
+/** \brief Whether things can stand on a plane n.x + d = 0: others are walls. \param[in] up unit */
+inline bool
+isLevel (const Eigen::Vector4d& plane, const Eigen::Vector3d& up)
+{
+  constexpr double level = 0.9; // cosine
+  return plane.head<3> ().dot (up) > level;
+}
+
 /** \brief A mesh whose vertices between a plane and \a band_m over it, or behind it, lie on it: the bottom of a thing
  * that stands there is flat, as that of what it shows is, however the estimate's voxels have rounded its edges. */
 TriangleMesh flattenedOn (const Eigen::Vector4d& plane, TriangleMesh mesh, double band_m);

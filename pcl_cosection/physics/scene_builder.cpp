@@ -2,7 +2,6 @@
 #include "pcl_cosection/physics/scene_builder.h"
 
 #include "pcl_cosection/common/convex_hull.h"
-#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/physics/background_parts.h"
 #include "pcl_cosection/physics/body_parts.h"
@@ -10,7 +9,6 @@
 #include "pcl_cosection/physics/resting.h"
 #include "pcl_cosection/physics/scene_frame.h"
 #include "pcl_cosection/physics/visual_mesh.h"
-#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -60,14 +58,6 @@ std::string
 planeName (std::size_t number)
 {
   return "support_" + std::to_string (number + 1);
-}
-
-/** \brief Whether things can stand on a plane: others are walls. */
-bool
-isLevel (const Eigen::Vector4d& plane, const Eigen::Vector3d& up)
-{
-  constexpr double level = 0.9; // cosine
-  return plane.head<3> ().dot (up) > level;
 }
 
 /** \brief A plane as a body, as large as what is near it; one on which things stand is as large as all of them. */
@@ -227,39 +217,6 @@ heightAlong (const Eigen::Vector3d& up, const TriangleMesh& mesh)
   return -lowestOver (-ground, mesh) - lowestOver (ground, mesh);
 }
 
-/** \brief Background that is not on a support plane, in the scene's frame: a block, a shelf, a wall. */
-std::vector<Eigen::Vector3d>
-backgroundBesidePlanes (const CompletedScene& scene, const Eigen::Isometry3d& T_scene_world,
-                        const std::vector<Eigen::Vector4d>& planes)
-{
-  const double near_m = touching_voxels * largestVoxelSizeOf (scene);
-  std::vector<Eigen::Vector3d> points;
-  for (const Eigen::Vector3f& vertex : scene.background.vertices)
-    if (const Eigen::Vector3d p = T_scene_world * vertex.cast<double> ();
-        p.allFinite () && std::none_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
-          return std::abs (heightOver (plane, p)) < near_m;
-        }))
-      points.push_back (p);
-  return points;
-}
-
-/** \brief Whether a body touches a wall, or background that is not on a support plane: it may lean there, or stand. */
-bool
-touchesSurroundings (const CollisionSource& source, const std::vector<Eigen::Vector4d>& planes,
-                     const Eigen::Vector3d& up, const std::vector<Eigen::Vector3d>& background)
-{
-  const double reach_m = touching_voxels * source.voxel_size_m;
-  if (std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
-        return !isLevel (plane, up) && std::abs (lowestOver (plane, source.mesh)) < reach_m;
-      }))
-    return true;
-  const Eigen::AlignedBox3d box = vertexBox (source.mesh);
-  const SurfaceDistance surface (source.mesh);
-  return std::any_of (background.begin (), background.end (), [&] (const Eigen::Vector3d& p) {
-    return box.exteriorDistance (p) < reach_m && (surface.nearest (p).point - p).norm () < reach_m;
-  });
-}
-
 /** \brief Find what each body stands on, and make its bottom flat there. It ends at walls that it touches. What
  * touches nothing, and is no higher over a plane than half its height, was seen at rest, and its bottom was not seen:
  * the outline of its lower half reaches down to the plane. */
@@ -303,7 +260,8 @@ standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d
 
 /** \brief What a simulation of a body would show, and its line in a report does not say. */
 void
-warnOf (const PhysicalBody& body, bool touches, bool has_planes, std::vector<std::string>& warnings)
+warnOf (const PhysicalBody& body, const BodyParts& parts, bool touches, bool has_planes,
+        std::vector<std::string>& warnings)
 {
   constexpr double least_share = 0.75, smallest_m = 0.001, largest_m = 50.0;
   if (has_planes && body.stands_on < 0 && !touches)
@@ -315,6 +273,14 @@ warnOf (const PhysicalBody& body, bool touches, bool has_planes, std::vector<std
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& vertex : body.visual.vertices)
     box.extend (vertex);
+  if (parts.overlap_m > 0.0)
+  {
+    std::ostringstream text;
+    text.precision (2);
+    text << body.name << ": is within a part of another object, or holds one in a part, by " << 1000.0 * parts.overlap_m
+         << " mm, which simulators push apart; more parts (--max-parts) may keep clear of it";
+    warnings.push_back (text.str ());
+  }
   const double size_m = box.sizes ().cast<double> ().norm ();
   std::ostringstream size;
   size.precision (2);
@@ -382,7 +348,7 @@ buildPhysicalScene (const CompletedScene& scene, const PhysicsOptions& options)
     sources.push_back (sourceOf (object, options, T_scene_world));
   standOnPlanes (planes, frame.up, sources, result);
   const std::vector<BodyParts> parts = divideBodies (sources, options);
-  const std::vector<Eigen::Vector3d> background = backgroundBesidePlanes (scene, T_scene_world, planes);
+  const std::vector<Eigen::Vector3d> background = backgroundBesidePlanes (scene, result, planes);
   for (std::size_t n = 0; n < sources.size (); ++n)
   {
     PhysicalBody& body = result.bodies[n];
@@ -390,7 +356,7 @@ buildPhysicalScene (const CompletedScene& scene, const PhysicsOptions& options)
     if (body.stands_on >= 0)
       makeStand (body, parts[n], planes[body.stands_on], touches && !sources[n].extended, result.warnings);
     setParts (parts[n], sources[n], options, body);
-    warnOf (body, touches, !planes.empty (), result.warnings);
+    warnOf (body, parts[n], touches, !planes.empty (), result.warnings);
   }
   addBackground (scene, planes, parts, result);
   return result;

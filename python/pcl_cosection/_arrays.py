@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Sequence, Tuple, Union
+import operator
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +24,7 @@ def _text(shape: Sequence[object]) -> str:
 
 def as_array(name: str, value: Any) -> Array:
     """Any array; of numbers or truth values."""
-    if np.ma.isMaskedArray(value) and np.ma.is_masked(value):
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
         raise InvalidArgument(f"{name}: is a masked array; give its filled(), with NaN for what was not measured "
                               "(0 among whole numbers)")
     try:
@@ -108,6 +109,29 @@ def pose(name: str, value: Any) -> Array:
             and np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-3)):
         raise InvalidArgument(f"{name}: expected a rotation and a translation, T_world_sensor, as a 4 x 4 matrix")
     return matrix
+
+
+def by_label(name: str, value: Any) -> Dict[int, Any]:
+    """What is given by label: whole numbers; nothing is nothing."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise InvalidArgument(f"{name}: expected a mapping from labels, got {type(value).__name__}")
+    result: Dict[int, Any] = {}
+    for label, one in value.items():
+        try:
+            result[operator.index(label)] = one
+        except TypeError:
+            raise InvalidArgument(f"{name}: expected labels, which are whole numbers, got {label!r}") from None
+    return result
+
+
+def items(name: str, value: Any) -> List[Any]:
+    """The items of a list, or of anything else that has some."""
+    try:
+        return list(value)
+    except TypeError:
+        raise InvalidArgument(f"{name}: expected a list, got {type(value).__name__}") from None
 
 
 def camera(name: str, value: Any) -> Tuple[float, float, float, float]:

@@ -93,7 +93,7 @@ class Completion:
 
 def complete(view: Any, labels: Any = None, intrinsics: Any = None, T_world_sensor: Any = None, *,
               colours: Any = None, normals: Any = None, depth_scale: Optional[float] = None,
-              free_space: Sequence[Any] = (), planes: Sequence[Any] = (), obstacles: Sequence[Any] = (),
+              free_space: Any = (), planes: Sequence[Any] = (), obstacles: Any = (),
               proposals: Optional[Mapping[int, Any]] = None, progress: Optional[Progress] = None,
               options: Options | Mapping[str, Any] | None = None) -> Completion:
     """Complete the hidden surfaces of the objects in one or several views.
@@ -102,9 +102,9 @@ def complete(view: Any, labels: Any = None, intrinsics: Any = None, T_world_sens
                  View; or the name of a PCD or PLY file; or a list of Views and names
     labels, intrinsics, T_world_sensor, colours, normals, depth_scale
                  of a depth image or points, as of View
-    free_space   further Views, or names, that show which space is free and nothing else
+    free_space   a further View, or name, or a list of some, that show which space is free and nothing else
     planes       (a, b, c, d) each: a x + b y + c z + d = 0 (world, metres), which no object crosses: a table, a wall
-    obstacles    meshes (world, metres) that no object enters: a Mesh, one of Open3D or trimesh, a pair of vertices and
+    obstacles    a mesh or a list of meshes (world, metres) that no object enters: a Mesh, one of Open3D or trimesh, a pair of vertices and
                  faces, or the name of a file
     proposals    by label, a mesh or a list of meshes that may be the shape of the object, of any size and pose
     progress     called now and then with the name of a stage and the finished fraction; False cancels
@@ -115,21 +115,22 @@ def complete(view: Any, labels: Any = None, intrinsics: Any = None, T_world_sens
     """
     views = _views(view, labels, intrinsics, T_world_sensor, colours, normals, depth_scale)
     scene = SceneData(option_arguments(options))
-    more = [_view(f"free_space[{n}]", given) for n, given in enumerate(free_space)]
+    is_one = isinstance(free_space, (View, str, os.PathLike))
+    more = [_view(f"free_space[{n}]", given)
+            for n, given in enumerate([free_space] if is_one else _arrays.items("free_space", free_space))]
     for number, one in enumerate(views):
         scene.add_view(one.file or f"view {number}", one.data, False)
     for number, one in enumerate(more):
         scene.add_view(one.file or f"free space {number}", one.data, True)
     for label, poses in _poses(views + more).items():
         scene.set_poses(label, poses)
-    for plane in planes:
+    for plane in _arrays.items("planes", planes):
         scene.add_mesh("--plane=", _plane(plane), None)
-    for number, mesh in enumerate(obstacles):
+    for number, mesh in enumerate(_list_of_meshes(obstacles)):
         _add_mesh(scene, "--obstacle=", f"obstacle {number}", f"obstacles[{number}]", mesh)
-    for label, meshes in (proposals or {}).items():
+    for label, meshes in _arrays.by_label("proposals", proposals).items():
         for number, mesh in enumerate(_list_of_meshes(meshes)):
-            _add_mesh(scene, f"--proposal={int(label)}=", f"proposal {number} of object {int(label)}",
-                       f"proposals[{label}]", mesh)
+            _add_mesh(scene, f"--proposal={label}=", f"proposal {number} of object {label}", f"proposals[{label}]", mesh)
     if progress is not None and not callable(progress):
         raise InvalidArgument(f"progress: expected a function of a stage and a fraction, got {type(progress).__name__}")
     return Completion(_core.complete(scene, progress))

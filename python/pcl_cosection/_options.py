@@ -98,9 +98,11 @@ _NUMBERS = ("viewpoint",)
 def _texts(name: str, value: Any) -> List[str]:
     """One text for each time that an option is given."""
     if isinstance(value, str):
+        if not value:
+            raise InvalidArgument(f"{name}: expected a value, got nothing")
         return [value]
     if name == "priors":
-        return [",".join(str(prior) for prior in value)]
+        return [",".join(str(prior) for prior in value) or "none"]
     try:
         items = list(value)
     except TypeError:

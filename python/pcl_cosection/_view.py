@@ -45,8 +45,8 @@ class View:
                                    + (f", got {' and '.join(given)}" if given else ""))
         self.file = "" if file is None else os.fspath(file)
         self.data: Optional[ViewData] = None
-        self.T_world_object = {int(label): _arrays.pose(f"T_world_object[{label}]", T)
-                               for label, T in (T_world_object or {}).items()}
+        self.T_world_object = {label: _arrays.pose(f"T_world_object[{label}]", T)
+                               for label, T in _arrays.by_label("T_world_object", T_world_object).items()}
         if file is not None:
             for name, value in (("labels", labels), ("intrinsics", intrinsics), ("T_world_sensor", T_world_sensor),
                                 ("colours", colours), ("normals", normals), ("depth_scale", depth_scale)):

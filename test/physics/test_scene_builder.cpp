@@ -302,6 +302,21 @@ TEST (SceneBuilder, BodiesEndAtWallsAndLeanOnThem)
   EXPECT_LT (2.0 * built.planes[1].half_size_m.maxCoeff (), 3.01 * 0.5); // of what is near it, and as much around
 }
 
+TEST (SceneBuilder, ABodyWithinAnotherIsSaid)
+{
+  const CompletedScene scene = sceneOf ({objectOf (1, "outer", boxMesh ({0.0f, 0.0f, 0.0f}, {0.1f, 0.1f, 0.1f})),
+                                         objectOf (2, "inner", boxMesh ({0.04f, 0.04f, 0.04f}, {0.06f, 0.06f, 0.06f})),
+                                         objectOf (3, "beside", boxMesh ({0.1f, 0.0f, 0.0f}, {0.2f, 0.1f, 0.1f}))});
+  const std::vector<std::string> warnings = buildPhysicalScene (scene, {}).warnings;
+  for (const auto& [name, is_said] : {std::pair ("outer_1", true), {"inner_2", true}, {"beside_3", false}})
+    EXPECT_EQ (std::any_of (warnings.begin (), warnings.end (),
+                            [&, &name = name] (const std::string& line) {
+                              return line.find (std::string (name) + ": is within a part of another object") == 0;
+                            }),
+               is_said)
+        << name;
+}
+
 TEST (SceneBuilder, WithoutAPlaneThereIsAWarning)
 {
   CompletedScene completed = fourThings ();

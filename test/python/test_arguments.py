@@ -55,6 +55,13 @@ class Arguments(unittest.TestCase):
                    "colours: expected bytes or floats in [0, 1], got floats from 255.0")
         self.check(self.complete(np.ma.masked_less(DEPTH, 1.0), LABELS, CAMERA), "view: is a masked array")
         self.check(self.complete(DEPTH, LABELS, CAMERA, obstacles=[3]), "obstacles[0]: expected a mesh", "got int")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, obstacles=3), "obstacles[0]: expected a mesh", "got int")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, planes=None), "planes: expected a list, got NoneType")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, free_space=3), "free_space: expected a list, got int")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, proposals=[3]), "proposals: expected a mapping from labels")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, options={"model": ""}), "model: expected a value, got nothing")
+        self.check(lambda: pcl_cosection.View(DEPTH, LABELS, CAMERA, T_world_object={1.7: np.eye(4)}),
+                   "T_world_object: expected labels, which are whole numbers, got 1.7")
         self.check(self.complete(DEPTH, LABELS, CAMERA, progress=3), "progress: expected a function", "got int")
         self.check(lambda: pcl_cosection.evaluate.mesh(TRIANGLE, 3), "reconstruction: expected a mesh")
         self.check(lambda: pcl_cosection.export(3, "out", "mjcf"), "result: expected a Completion")
