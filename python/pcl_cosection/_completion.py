@@ -104,8 +104,8 @@ def complete(view: Any, labels: Any = None, intrinsics: Any = None, T_world_sens
                  of a depth image or points, as of View
     free_space   a further View, or name, or a list of some, that show which space is free and nothing else
     planes       (a, b, c, d) each: a x + b y + c z + d = 0 (world, metres), which no object crosses: a table, a wall
-    obstacles    a mesh or a list of meshes (world, metres) that no object enters: a Mesh, one of Open3D or trimesh, a pair of vertices and
-                 faces, or the name of a file
+    obstacles    a mesh or a list of meshes (world, metres) that no object enters: a Mesh, one of Open3D or trimesh, a
+                 pair of vertices and faces, or the name of a file
     proposals    by label, a mesh or a list of meshes that may be the shape of the object, of any size and pose
     progress     called now and then with the name of a stage and the finished fraction; False cancels
     options      Options, or a dict of some
@@ -130,7 +130,8 @@ def complete(view: Any, labels: Any = None, intrinsics: Any = None, T_world_sens
         _add_mesh(scene, "--obstacle=", f"obstacle {number}", f"obstacles[{number}]", mesh)
     for label, meshes in _arrays.by_label("proposals", proposals).items():
         for number, mesh in enumerate(_list_of_meshes(meshes)):
-            _add_mesh(scene, f"--proposal={label}=", f"proposal {number} of object {label}", f"proposals[{label}]", mesh)
+            name = f"proposal {number} of object {label}"
+            _add_mesh(scene, f"--proposal={label}=", name, f"proposals[{label}]", mesh)
     if progress is not None and not callable(progress):
         raise InvalidArgument(f"progress: expected a function of a stage and a fraction, got {type(progress).__name__}")
     return Completion(_core.complete(scene, progress))

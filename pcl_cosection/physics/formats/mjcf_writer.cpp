@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::uint64_t contacts_of_scene = 100, contacts_of_body = 80, most_contacts = 2600, rows_of_contact = 3;
 constexpr double foot_radius_m = 0.0005;
-constexpr int touches_feet = 2; // bit of contype and conaffinity: feet reach beyond their body, and touch planes alone
+constexpr int touches_feet = 2; // bit of contype and conaffinity: feet reach beyond their body, and touch what they
+                                // stand on alone
 
 std::string
 rgbaText (const TriangleMesh::Colour& colour)
@@ -96,7 +97,7 @@ addAssets (XmlText& xml, const PhysicalScene& scene)
 }
 
 void
-addPlane (XmlText& xml, const PhysicalPlane& plane)
+addPlane (XmlText& xml, const PhysicalPlane& plane, bool carries)
 {
   constexpr double grid_m = 0.1; // distance of the lines of a plane that is drawn
   const Eigen::Isometry3d& pose = plane.T_scene_plane;
@@ -107,7 +108,7 @@ addPlane (XmlText& xml, const PhysicalPlane& plane)
                     {"pos", numbersText (place)},
                     {"quat", numbersText (scalarFirst (rotationOf (pose)))},
                     {"size", numbersText (plane.endless ? Eigen::Vector3d (half.x (), half.y (), grid_m) : half)},
-                    {"contype", numberText (1 | touches_feet)},
+                    {"contype", numberText (carries ? 1 | touches_feet : 1)},
                     {"rgba", rgbaText (plane_colour)}});
 }
 
@@ -156,8 +157,10 @@ modelText (const PhysicalScene& scene)
   addAssets (xml, scene);
   xml.open ("worldbody");
   xml.add ("light", {{"directional", "true"}, {"pos", "0 0 3"}, {"dir", "-0.5 0.1 -0.9"}});
-  for (const PhysicalPlane& plane : scene.planes)
-    addPlane (xml, plane);
+  for (std::size_t n = 0; n < scene.planes.size (); ++n)
+    addPlane (xml, scene.planes[n],
+              std::any_of (scene.bodies.begin (), scene.bodies.end (),
+                           [&] (const PhysicalBody& body) { return body.stands_on == static_cast<int> (n); }));
   for (const PhysicalBody& body : scene.bodies)
     addBody (xml, scene, body);
   xml.close ();
